@@ -32,13 +32,17 @@ from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
 from ..core.progress import said_in_steps
-from ..scene import armature, bridge, export, file_checks, hulls, results, store, targets, uv_map
-from ..scene.compute import Outcome, compute_all
+from ..scene import bridge, store, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_objects
 from ..scene.modes import leave_edit_mode
+from ..scene.moving import armature, hulls
+from ..scene.outputs import uv_map
 from ..scene.pieces import piece_objects, separation
-from ..scene.run_files import RunFiles, reason, scene_files, together
+from ..scene.runs import results
+from ..scene.runs.compute import Outcome, compute_all
+from ..scene.saving import export, file_checks
+from ..scene.saving.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
 from .interrupt import Interrupted, Interrupts
@@ -168,7 +172,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
 
     Raises what the user should hear.
     """
-    from ..scene.object_report import object_report  # imports SciPy
+    from ..scene.saving.object_report import object_report  # imports SciPy
 
     targets.check_object(obj)
     assert obj is not None

@@ -13,7 +13,7 @@ import bpy
 
 from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
-from ..scene.run_files import reason
+from ..scene.saving.run_files import reason
 from .importers import IMPORTERS, WITHOUT_UNIT, import_model
 from .messages import problem
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.options import add_parameters, dashed, limits_of, named_file, number
-from ..scene.export import KINDS
+from ..scene.saving.export import KINDS
 from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
 from .importers import IMPORTERS, WITHOUT_UNIT
 from .models import UNITS

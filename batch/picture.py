@@ -21,7 +21,8 @@ import numpy as np
 from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
-from ..scene import file_checks, mesh_arrays, placing
+from ..scene.reading import mesh_arrays, placing
+from ..scene.saving import file_checks
 from ..scene.temporary import freed, removed
 
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.

@@ -85,9 +85,11 @@ class View:
 
     def __init__(self, package: str, obj: bpy.types.Object) -> None:
         self.obj = obj
-        for name in ("hover", "pointing", "knife", "boundary", "brush", "colored_tool", "ring_tool"):
-            setattr(self, name, importlib.import_module(f"{package}.viewport.{name}"))
-        self.part_list = importlib.import_module(f"{package}.scene.part_list")
+        for folder, several in {"viewport": ("hover", "pointing"),
+                                "viewport.modal": ("knife", "boundary", "brush", "colored_tool", "ring_tool")}.items():
+            for name in several:
+                setattr(self, name, importlib.import_module(f"{package}.{folder}.{name}"))
+        self.part_list = importlib.import_module(f"{package}.scene.result.part_list")
         looking = Matrix(((0, 0, 1, 0), (1, 0, 0, 0), (0, 1, 0, -4), (0, 0, 0, 1)))  # along x, from 4 away
         lens = Matrix(((2, 0, 0, 0), (0, 2 * SIZE[0] / SIZE[1], 0, 0), (0, 0, -1, -0.02), (0, 0, -1, 0)))
         data = SimpleNamespace(view_matrix=looking, window_matrix=lens, perspective_matrix=lens @ looking,

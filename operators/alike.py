@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import alike
+from ..scene.changes import alike
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 

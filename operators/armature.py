@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import armature
+from ..scene.moving import armature
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 from .checks import report_kept

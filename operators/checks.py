@@ -9,7 +9,7 @@ from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.pieces import origins, piece_checks, piece_objects, piece_repairs
 from ..scene.reporting import ReportingOperator
-from ..scene.selection import select_faces
+from ..scene.showing.selection import select_faces
 
 
 class PieceOperator(ReportingOperator):

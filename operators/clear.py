@@ -5,11 +5,13 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import orphan_outputs, results, store, targets
+from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
+from ..scene.ours import orphan_outputs
 from ..scene.reporting import ReportingOperator
+from ..scene.runs import results
 from ..viewport import shading
 
 

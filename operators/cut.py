@@ -12,9 +12,9 @@ from ..core.steps import Steps
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.knife import Knife, cut_at, nothing_there
+from ..viewport.modal.knife import Knife, cut_at, nothing_there
+from ..viewport.modal.view_tool import ViewTool
 from ..viewport.pointing import Target
-from ..viewport.view_tool import ViewTool
 
 
 class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):

@@ -8,13 +8,14 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.parameters import Parameters
 from ..core.sentence import Count
 from ..core.steps import Steps, finished, stretched
-from ..scene import bridge, defaults, jobs, results, targets
+from ..scene import bridge, defaults, targets
 from ..scene.bridge import Shape
-from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
-from ..scene.results import check_unchanged, writing_result
+from ..scene.runs import jobs, results
+from ..scene.runs.compute import Outcome, compute_all
+from ..scene.runs.results import check_unchanged, writing_result
 from ..scene.settings import (
     HINTS,
     OUTPUTS,

@@ -4,7 +4,8 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import property_updates, reactions, transaction
+from ..scene import property_updates, transaction
+from ..scene.changes import reactions
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored

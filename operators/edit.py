@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Change parts by hand: merge, split, grow, shrink, assign, release; see scene.edits."""
+"""Change parts by hand: merge, split, grow, shrink, assign, release; see scene.changes.edits."""
 
 from collections.abc import Callable
 
@@ -7,12 +7,13 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import edits, part_list, part_names
+from ..scene.changes import edits
 from ..scene.errors import SceneError
-from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator
+from ..scene.result import part_list, part_names
+from ..scene.result.part_list import chosen_numbers
 from ..scene.store import Stored
-from ..viewport.ring_tool import RingTool, move
+from ..viewport.modal.ring_tool import RingTool, move
 
 
 class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
@@ -34,7 +35,7 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
 
 
 class ChosenPartsOperator(PartOperator):
-    """For operators that do something with each of the chosen parts: ``edit`` of scene.edits.
+    """For operators that do something with each of the chosen parts: ``edit`` of scene.changes.edits.
 
     If it is not possible with one of them, nothing is done.
     """

@@ -7,13 +7,14 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import moved, store, targets
+from ..scene import store, targets
+from ..scene.changes import moved
 from ..scene.errors import SceneError
-from ..scene.export import KINDS, export_parts
 from ..scene.modes import object_mode
-from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
-from ..scene.run_files import together
+from ..scene.result.part_list import wanted_numbers
+from ..scene.saving.export import KINDS, export_parts
+from ..scene.saving.run_files import together
 from ..scene.settings import SEPARATE, WhichProperties, fill_in
 
 # Since Blender 4.5 a path may only begin with "//" where that is said.

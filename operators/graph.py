@@ -5,14 +5,16 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, moved, part_names, property_updates, reactions, store, targets, transaction
+from ..scene import property_updates, store, targets, transaction
+from ..scene.changes import edits, moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.graph.graph_objects import part_of, source_of_arcs
 from ..scene.modes import object_mode
-from ..scene.part_list import check_parts, choose, chosen_numbers
 from ..scene.reporting import ReportingOperator
-from ..scene.selection import select_objects
+from ..scene.result import part_names
+from ..scene.result.part_list import check_parts, choose, chosen_numbers
+from ..scene.showing.selection import select_objects
 from ..viewport import pointing
 
 

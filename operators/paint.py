@@ -6,13 +6,14 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, part_names
-from ..scene.part_list import active_number
+from ..scene.changes import edits
 from ..scene.reporting import PartOperator
+from ..scene.result import part_names
+from ..scene.result.part_list import active_number
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.brush import START_SIZE, Brush, ReebDab, paint
-from ..viewport.colored_tool import ColoredTool
+from ..viewport.modal.brush import START_SIZE, Brush, ReebDab, paint
+from ..viewport.modal.colored_tool import ColoredTool
 from ..viewport.pointing import Target
 
 

@@ -6,12 +6,15 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import hidden, moved, naming, part_list, part_names, part_places, reactions, selection, store, targets
+from ..scene import store, targets
+from ..scene.changes import moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
-from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
+from ..scene.result import naming, part_list, part_names, part_places
+from ..scene.result.part_list import chosen_numbers
+from ..scene.showing import hidden, selection
 from ..scene.store import Stored
 from ..scene.targets import active_object, users
 from ..viewport import framing, hover, pointing, shading

@@ -5,13 +5,14 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import part_names, redraw
-from ..scene.part_list import choose, toggle
+from ..scene import redraw
 from ..scene.reporting import PartOperator
+from ..scene.result import part_names
+from ..scene.result.part_list import choose, toggle
 from ..scene.store import Stored
 from ..viewport import pointing
+from ..viewport.modal.view_tool import ViewTool
 from ..viewport.pointing import Target
-from ..viewport.view_tool import ViewTool
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):

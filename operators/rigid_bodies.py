@@ -5,11 +5,12 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import moved, store, targets
+from ..scene import store, targets
+from ..scene.changes import moved
 from ..scene.modes import object_mode
-from ..scene.part_list import check_parts
 from ..scene.pieces import piece_objects
 from ..scene.reporting import ReportingOperator, named
+from ..scene.result.part_list import check_parts
 from ..scene.store import Stored
 
 

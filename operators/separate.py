@@ -7,14 +7,15 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import moved, store, targets
+from ..scene import store, targets
+from ..scene.changes import moved
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.pieces import origins, piece_objects, separation
 from ..scene.reporting import ReportingOperator
-from ..scene.selection import in_layer, select_objects
+from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
+from ..scene.showing.selection import in_layer, select_objects
 from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
 from .checks import report_kept, report_unsound

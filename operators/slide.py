@@ -5,16 +5,17 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits, part_names
+from ..scene.changes import edits
 from ..scene.errors import SceneError
-from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
+from ..scene.result import part_names
+from ..scene.result.part_list import active_number
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.boundary import Boundary, check_borders, write_moved
-from ..viewport.colored_tool import ColoredTool
+from ..viewport.modal.boundary import Boundary, check_borders, write_moved
+from ..viewport.modal.colored_tool import ColoredTool
+from ..viewport.modal.view_tool import turns_view
 from ..viewport.pointing import Target
-from ..viewport.view_tool import turns_view
 
 
 class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):

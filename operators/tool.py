@@ -5,12 +5,14 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import part_list, reactions, redraw
+from ..scene import redraw
+from ..scene.changes import reactions
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator, ReportingOperator
+from ..scene.result import part_list
 from ..scene.store import Stored
 from ..viewport import hover, pointing
-from ..viewport.box import Frame, parts_in_box
+from ..viewport.modal.box import Frame, parts_in_box
 
 
 class REEB_PARTS_OT_choose(ReportingOperator, bpy.types.Operator):

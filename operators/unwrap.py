@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import uv_map
+from ..scene.outputs import uv_map
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 

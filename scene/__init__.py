@@ -1,78 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's data, read and written: meshes as arrays, results stored with their meshes, and what is made of them.
 
-Reading:
+The way of a mesh:
 
 - ``bridge``: the shape of an object as arrays for core
-- ``mesh_arrays``: the arrays of a mesh
-- ``fingerprints``: what tells that a mesh was edited, or moved as a whole
-- ``elements``: the elements of a mesh with all that they carry, some of them taken or others put on
-- ``element_layers``: reads these from a mesh, and makes meshes of them
-- ``mesh_groups``: the vertex groups of a mesh
-- ``matrix_layers``: a BMesh with matrices, too
-- ``half_models``: objects whose first modifier is a Mirror
-- ``face_hints``: materials and such, for cuts to follow
-- ``modified``: the mesh as it is seen, with its modifiers applied
-- ``seen_points``: where the vertices of a mesh are seen
-- ``placing``: where objects are in the world, and how long its unit is
-- ``part_places``: where parts are
-
-Computing:
-
-- ``compute``: from shapes to decompositions
-- ``jobs``: a computation in a process of its own, watched from Blender's
-- ``processes``: that process
-
-The result:
-
-- ``results``: written to an object, and removed from it
-- ``store``: kept with its mesh
-- ``schema``: what is stored in the file
-- ``succession``: a new result for a mesh that had one
-- ``outputs``: what of the parts is written to a mesh
-- ``orphan_outputs``: what of ours a mesh has without a result
-- ``part_list``: which parts are chosen in the list
-- ``part_names``: names and colors of parts, by their numbers
-- ``naming``: names that are suggested
-- ``notes``: notes on a mesh
-- ``object_report``: what the JSON says of an object
-- ``graph``: the graph as objects
-
-Changes:
-
-- ``edits``: parts changed by hand
-- ``reactions``: what a slider or a new name does
-- ``settled``: sliders that go back when what they ask for cannot be shown
-- ``property_updates``: whether it is the user who writes a property
-- ``watch``: notices that a mesh was edited or deleted
-- ``moved``: the result of a mesh that was moved as a whole goes along
-- ``alike``: parts that are alike, and names carried to other models
+- ``reading``: what else is read of objects and their meshes
+- ``settings``: what the next run, and what is made of its parts, will be like
+- ``defaults``: what the preferences say
+- ``runs``: a run, in a process of its own, and what becomes of its result
+- ``store``: the result, kept with its mesh
+- ``result``: what the file stores beside it, and the names and the list of its parts
+- ``changes``: what changes a result: the user's hand, a slider, an edit of the mesh
 
 What is made of parts:
 
+- ``outputs``: what of them is written to a mesh
+- ``graph``: the graph as objects
+- ``showing``: what is shown, hidden and selected
 - ``pieces``: parts as objects
 - ``joints``: pegs and such, which join these
-- ``cut_list``: their cuts as a list on the object
-- ``cut_curves``: curves that Separate would cut along
-- ``by_extent``: modifiers that work by the extent of the whole mesh, and would shape a piece otherwise
-- ``armature``: bones, and the weights with which they move the mesh
-- ``skeleton``: where these bones are
-- ``hulls``: convex hulls to collide with
-- ``rigid_bodies``: pieces held together by joints of Blender's simulation
-- ``uv_map``: a UV map with an island for each part
-- ``explode``: parts that drift apart in the view
-- ``hidden``: parts that vanish from it
-- ``made_objects``: what we made, replaced by the next run unless the user has worked on it
-- ``object_digest``: tells whether somebody has worked on an object
-- ``surroundings``: what many objects are in, and what hangs on them
-- ``export``: parts as files
-- ``run_files``: files put in place all or none
-- ``file_checks``: whether a file is all there
-
-Settings:
-
-- ``settings``: what the next run, and what is made of its parts, will be like
-- ``defaults``: what the preferences say
+- ``moving``: parts that move: bones, rigid bodies, hulls
+- ``saving``: what leaves Blender as files
+- ``ours``: what is ours, and whether the user has worked on it
 
 What every operator needs:
 
@@ -83,11 +32,8 @@ What every operator needs:
 - ``errors``: what users are told, and the way into core
 - ``transaction``: all or nothing
 - ``snapshots``: what a transaction keeps
-- ``sculpt_undo``: undo in Sculpt Mode
+- ``property_updates``: whether it is the user who writes a property
 - ``modes``: leaves a mode, and returns to it
-- ``selection``: what is selected or hidden
-- ``visibility``: what is hidden for a while
-- ``modifiers``: modifiers of ours
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls
 - ``redraw``: lets windows draw again
@@ -95,8 +41,12 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import compute, defaults, fingerprints, mesh_arrays, part_places, schema, sculpt_undo, store, watch
+from . import defaults, store
+from .changes import sculpt_undo, watch
 from .outputs import vertex_groups
+from .reading import fingerprints, mesh_arrays
+from .result import part_places, schema
+from .runs import compute
 
 
 def register() -> None:

@@ -17,10 +17,12 @@ from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
-from . import face_hints, fingerprints, mesh_arrays, modifiers, targets
-from .half_models import half_plane
-from .mesh_arrays import shown_points
-from .placing import world_matrix
+from . import targets
+from .ours import modifiers
+from .reading import face_hints, fingerprints, mesh_arrays
+from .reading.half_models import half_plane
+from .reading.mesh_arrays import shown_points
+from .reading.placing import world_matrix
 from .temporary import freed, removed
 
 

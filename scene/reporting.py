@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.errors import ReebError
-from . import moved, store, targets
+from . import store, targets
+from .changes import moved
 from .errors import SceneError, translated
 from .modes import object_mode
-from .part_list import check_parts
+from .result.part_list import check_parts
 from .store import Stored
 from .transaction import transaction
 

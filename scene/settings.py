@@ -14,10 +14,11 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import LABELS, PALETTES
-from . import face_hints, reactions
+from .changes import reactions
+from .changes.settled import Settled, reaction
 from .errors import translated
 from .graph import graph_objects
-from .settled import Settled, reaction
+from .reading import face_hints
 
 
 def _property(field: Field) -> Any:

@@ -11,7 +11,8 @@ from typing import Any
 
 import bpy
 
-from . import mesh_arrays, targets
+from . import targets
+from .reading import mesh_arrays
 
 
 def values_of(group: bpy.types.PropertyGroup) -> dict[str, Any]:

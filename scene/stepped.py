@@ -10,9 +10,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from ..core.steps import Steps, finished
-from . import jobs, redraw, running, store
+from . import redraw, running, store
 from .errors import SceneError, translated
 from .reporting import ReportingOperator
+from .runs import jobs
 from .transaction import transaction
 
 #: With so many vertices it can take a second or more: then there is progress, and Esc.

@@ -17,8 +17,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering
-from . import fingerprints, part_names, property_updates, targets, transaction
+from . import property_updates, targets, transaction
 from .errors import SceneError, load_core, translated
+from .reading import fingerprints
+from .result import part_names
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
 _read: dict[bytes, Decomposition] = {}

@@ -10,9 +10,11 @@ from bpy.app.translations import pgettext_iface as iface_
 from mathutils import Matrix
 
 from ..core.sentence import Count
-from ..scene import jobs, modes, notes, part_list, part_names, store
+from ..scene import modes, store
 from ..scene.graph import graph_objects
 from ..scene.pieces import piece_objects
+from ..scene.result import notes, part_list, part_names
+from ..scene.runs import jobs
 from . import toolbar
 from .fitting import Room
 

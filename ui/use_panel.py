@@ -8,8 +8,8 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..core.sentence import Count
-from ..scene import cut_list, store
-from ..scene.pieces import origins, piece_checks, piece_objects
+from ..scene import store
+from ..scene.pieces import cut_list, origins, piece_checks, piece_objects
 from .fitting import Room
 from .panel import SubPanel
 

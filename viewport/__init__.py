@@ -11,23 +11,15 @@
 - ``follow_active``: has the list follow the active object
 - ``idle``: what takes too long to be found at each move
 - ``pointing``: what lies under the pointer
-
-Tools, which are used with the pointer until they are confirmed:
-
-- ``view_tool``: what all of them have in common
-- ``colored_tool``: those that show in colors what a part would be
-- ``ring_tool``: those that move boundaries ring by ring
-- ``knife``: where a part is cut
-- ``boundary``: the boundary of a part, to be moved
-- ``brush``: paints faces into a part
-- ``box``: which parts are seen in a box
+- ``modal``: tools, which are used with the pointer until they are confirmed
 """
 
 from __future__ import annotations
 
 import bpy
 
-from . import brush, follow_active, graph_overlay, highlight, hover, pointing, shading
+from . import follow_active, graph_overlay, highlight, hover, pointing, shading
+from .modal import brush
 
 _OVERLAYS = (highlight, graph_overlay)  # drawn in this order
 _handles: list[object] = []

@@ -8,7 +8,7 @@ from bpy.app.handlers import persistent
 
 from ..scene import handlers
 from ..scene.graph import graph_objects
-from ..scene.part_list import choose
+from ..scene.result.part_list import choose
 
 _owner = object()
 

@@ -15,8 +15,10 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..scene import made_objects, part_names, store
+from ..scene import store
 from ..scene.graph import graph_follow, graph_objects
+from ..scene.ours import made_objects
+from ..scene.result import part_names
 from .graph_lines import GraphLines
 from .lines import Lines
 

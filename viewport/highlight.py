@@ -16,14 +16,17 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.steps import Steps
-from ..scene import bridge, cut_curves, explode, mesh_arrays, selection, store
+from ..scene import bridge, store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
-from ..scene.part_list import chosen_numbers
-from ..scene.seen_points import seen_points, version
+from ..scene.pieces import cut_curves
+from ..scene.reading import mesh_arrays
+from ..scene.reading.seen_points import seen_points, version
+from ..scene.result.part_list import chosen_numbers
+from ..scene.showing import explode, selection
 from .idle import IdleSearch
 from .lines import Lines, Surface
-from .view_tool import CHANGED
+from .modal.view_tool import CHANGED
 
 if TYPE_CHECKING:
     from ..core.uses.clean_cuts.curves import Curves

@@ -13,9 +13,12 @@ import blf
 import bpy
 import numpy as np
 
-from ..scene import explode, mesh_arrays, part_names, store
+from ..scene import store
 from ..scene.errors import SceneError
-from ..scene.seen_points import seen_points, version
+from ..scene.reading import mesh_arrays
+from ..scene.reading.seen_points import seen_points, version
+from ..scene.result import part_names
+from ..scene.showing import explode
 from . import idle, pointing
 from .lines import Surface
 

@@ -15,9 +15,10 @@ from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import ArrayLike
 
-from ..scene import mesh_arrays, store
+from ..scene import store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_follow, graph_objects
+from ..scene.reading import mesh_arrays
 from .graph_lines import GraphLines, nearest
 
 if TYPE_CHECKING:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Reeb graph in the scene: its objects, whether they are hidden with the model, and that they go where it goes.
+"""The Reeb graph in the scene.
 
-``graph_objects`` makes the objects, ``arc_curves`` the curve of the arcs among them, ``graph_follow`` moves them along
-with a pose or an exploded view, ``graph_visibility`` hides and shows them with the model.
+- ``graph_objects``: makes its objects
+- ``arc_curves``: the curve of the arcs among them
+- ``graph_follow``: moves them along with a pose or an exploded view
+- ``graph_visibility``: hides and shows them with the model
 """

@@ -13,9 +13,10 @@ import numpy as np
 
 from ...core.arrays.indexing import sums_by
 from ...core.uses.moving.motion import rigid_motions
-from .. import bridge, mesh_arrays, redraw, store
+from .. import bridge, redraw, store
 from ..errors import SceneError
-from ..seen_points import seen_corners
+from ..reading import mesh_arrays
+from ..reading.seen_points import seen_corners
 from . import arc_curves, graph_objects
 
 _RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is

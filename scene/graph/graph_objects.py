@@ -20,9 +20,13 @@ from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
 from ...core.uses.graph_folding import unfolded
-from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction, visibility
-from ..made_objects import ROLE
-from ..selection import in_layer
+from .. import bridge, store, transaction
+from ..ours import made_objects
+from ..ours.made_objects import ROLE
+from ..reading import mesh_arrays
+from ..result import part_names
+from ..showing import visibility
+from ..showing.selection import in_layer
 from ..temporary import remove_object
 from . import arc_curves
 

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 import bpy
 
 from .. import transaction
-from ..made_objects import ROLE
-from ..selection import in_layer
+from ..ours.made_objects import ROLE
+from ..showing.selection import in_layer
 from . import graph_objects
 from .graph_objects import SHOWN_BEFORE
 

@@ -13,8 +13,8 @@ import numpy as np
 from ...core.arrays.components import components
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.triangles import EdgeTable
-from .. import mesh_arrays
-from ..pieces import caps
+from ..pieces.closing import caps
+from ..reading import mesh_arrays
 
 if TYPE_CHECKING:
     from ...core.uses.joints.places import Cap

@@ -11,8 +11,9 @@ import bpy
 import numpy as np
 
 from ...core.steps import Steps
-from .. import bridge, mesh_arrays
+from .. import bridge
 from ..pieces import piece_checks
+from ..reading import mesh_arrays
 from .planning import Plan
 from .solids import solid_of, with_solids
 

@@ -11,9 +11,10 @@ import bpy
 import numpy as np
 
 from ...core.steps import Steps, stretched
-from .. import bridge, mesh_arrays
+from .. import bridge
 from ..pieces import piece_checks
-from ..placing import millimeters
+from ..reading import mesh_arrays
+from ..reading.placing import millimeters
 from ..temporary import removed
 from .cuts import shared_cuts
 from .fitting import Work, fitting

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from .. import mesh_arrays
-from ..pieces import caps
+from ..pieces.closing import caps
+from ..reading import mesh_arrays
 
 if TYPE_CHECKING:
     from ...core.uses.joints.shapes import Solid

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from .. import mesh_arrays
-from ..pieces import caps
+from ..pieces.closing import caps
+from ..reading import mesh_arrays
 from ..temporary import removed
 
 if TYPE_CHECKING:

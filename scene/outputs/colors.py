@@ -7,8 +7,9 @@ import bpy
 import numpy as np
 
 from ...core.uses.colors import linear
-from .. import mesh_arrays, targets
+from .. import targets
 from ..modes import call_with
+from ..reading import mesh_arrays
 from .kept_aside import add_attribute, remove_attribute
 
 NAME = "Reeb Parts"

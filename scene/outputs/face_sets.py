@@ -7,7 +7,8 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from .. import mesh_arrays, transaction
+from .. import transaction
+from ..reading import mesh_arrays
 from .kept_aside import PREFIX, add_attribute, find_attribute, keep_aside, remove_attribute, taken_out
 
 NAME = ".sculpt_face_set"

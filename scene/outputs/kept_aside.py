@@ -9,7 +9,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from .. import mesh_arrays
+from ..reading import mesh_arrays
 
 #: How the names of all attributes begin in which values of the user are kept aside.
 PREFIX = ".reeb_former"

@@ -10,7 +10,9 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
-from .. import mesh_arrays, part_names, transaction
+from .. import transaction
+from ..reading import mesh_arrays
+from ..result import part_names
 from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
 
 _MATERIAL_INDEX = "material_index"

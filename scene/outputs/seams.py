@@ -7,7 +7,8 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from .. import mesh_arrays, transaction
+from .. import transaction
+from ..reading import mesh_arrays
 from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
 
 _KEPT = f"{PREFIX}_seam"

@@ -14,7 +14,10 @@ import numpy as np
 
 from ...core.arrays.indexing import run_starts
 from ...core.result.numbering import NumberedParts
-from .. import made_objects, mesh_arrays, part_names, targets, transaction
+from .. import targets, transaction
+from ..ours import made_objects
+from ..reading import mesh_arrays
+from ..result import part_names
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,8 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import PALETTE, PALETTES, number_colors, number_places
-from .. import part_names, part_places, property_updates, transaction
+from .. import property_updates, transaction
+from ..result import part_names, part_places
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
 #: The outputs by the names of their switches, see settings.OutputProperties.

@@ -15,11 +15,11 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
 
-from .. import mesh_arrays, mesh_groups
 from ..errors import SceneError
-from ..matrix_layers import as_bmesh
+from ..reading import mesh_arrays, mesh_groups
+from ..reading.matrix_layers import as_bmesh
 from ..temporary import freed
-from . import caps
+from .closing import caps
 
 _SHARED = "reeb_parts_shared"  # face layer, while caps are divided
 # So many more pieces at most: a box in other units than the model is a mistake.

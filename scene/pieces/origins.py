@@ -14,9 +14,11 @@ from collections.abc import Iterable, Iterator
 
 import bpy
 
-from .. import made_objects, transaction, visibility
-from ..part_names import fitted, without_number
-from ..surroundings import Surroundings
+from .. import transaction
+from ..ours import made_objects
+from ..ours.surroundings import Surroundings
+from ..result.part_names import fitted, without_number
+from ..showing import visibility
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
 _PARTS_OF = "Parts of "  # how its name begins

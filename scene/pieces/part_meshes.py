@@ -19,12 +19,15 @@ from ...core.arrays.pairs import are_among, distinct_pairs
 from ...core.mesh.corners import CornerTable, edge_labels
 from ...core.steps import Steps, finished, stretched
 from ...core.surface.orientation import against_neighbors
-from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates, targets
-from ..elements import CORNER, Elements
+from .. import outputs, property_updates, targets
 from ..outputs import kept_aside, materials
+from ..reading import element_layers, mesh_arrays, mesh_groups
+from ..reading.elements import CORNER, Elements
+from ..showing import hidden
 from ..temporary import removed
-from . import cap_looks, caps, smooth_faces, welding
-from .cut_holes import Holes
+from . import smooth_faces, welding
+from .closing import cap_looks, caps
+from .closing.cut_holes import Holes
 from .sculpted_pieces import SculptedMesh, is_sculpted
 
 _CUSTOM = "custom_normal"  # Blender's own

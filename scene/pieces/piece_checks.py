@@ -14,9 +14,10 @@ from mathutils.bvhtree import BVHTree
 from ...core.arrays.indexing import renumbered, stable_order
 from ...core.arrays.vectors import cross
 from ...core.surface.reach import within_reach
-from .. import mesh_arrays, transaction
-from . import caps
-from .body_surface import crossing, search_tree
+from .. import transaction
+from ..reading import mesh_arrays
+from .closing import caps
+from .closing.body_surface import crossing, search_tree
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
 

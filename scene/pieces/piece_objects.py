@@ -14,12 +14,16 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, element_layers, fingerprints, made_objects, rigid_bodies, store, targets, transaction, visibility
+from .. import bridge, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_visibility
-from ..selection import in_layer
+from ..moving import rigid_bodies
+from ..ours import made_objects
+from ..ours.surroundings import Surroundings
+from ..reading import element_layers, fingerprints
+from ..showing import visibility
+from ..showing.selection import in_layer
 from ..store import Stored
-from ..surroundings import Surroundings
 from ..temporary import remove_object
 from . import origins, piece_checks
 from .origins import DOWEL, NUMBER, collection_of, original

@@ -9,10 +9,13 @@ import numpy as np
 from bmesh.types import BMesh
 
 from ...core.surface.orientation import against_neighbors
-from .. import made_objects, mesh_arrays, mesh_groups, transaction
-from ..matrix_layers import as_bmesh
-from ..surroundings import Surroundings
-from . import cap_looks, caps, piece_checks, piece_objects
+from .. import transaction
+from ..ours import made_objects
+from ..ours.surroundings import Surroundings
+from ..reading import mesh_arrays, mesh_groups
+from ..reading.matrix_layers import as_bmesh
+from . import piece_checks, piece_objects
+from .closing import cap_looks, caps
 from .piece_checks import Check
 
 

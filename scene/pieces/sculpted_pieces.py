@@ -15,10 +15,11 @@ import numpy as np
 from bmesh.types import BMesh
 
 from ...core.steps import Steps
-from .. import element_layers, mesh_arrays, mesh_groups, targets
-from ..matrix_layers import as_bmesh
+from .. import targets
+from ..reading import element_layers, mesh_arrays, mesh_groups
+from ..reading.matrix_layers import as_bmesh
 from . import smooth_faces
-from .cut_holes import Holes
+from .closing.cut_holes import Holes
 
 
 def is_sculpted(mesh: bpy.types.Mesh) -> bool:

@@ -16,24 +16,17 @@ from mathutils import Matrix, Vector
 
 from ...core.steps import Steps, finished, stretched
 from ...core.uses.colors import linear
-from .. import (
-    bridge,
-    by_extent,
-    cut_list,
-    explode,
-    hidden,
-    joints,
-    made_objects,
-    mesh_arrays,
-    modified,
-    modifiers,
-    part_names,
-)
-from ..placing import millimeters
+from .. import bridge, joints
+from ..ours import made_objects, modifiers
+from ..reading import mesh_arrays, modified
+from ..reading.placing import millimeters
+from ..result import part_names
 from ..settings import SeparateProperties, closes_holes
+from ..showing import explode, hidden
 from ..store import Stored
 from ..temporary import removed
-from . import box_fitting, cap_looks, origins
+from . import box_fitting, by_extent, cut_list, origins
+from .closing import cap_looks
 from .origins import DOWEL, NUMBER, make_collection
 from .part_meshes import making_pieces
 from .piece_objects import (

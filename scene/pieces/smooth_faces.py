@@ -18,9 +18,9 @@ from bmesh.types import BMesh, BMFace, BMVert
 
 from ...core.arrays.indexing import run_starts
 from ...core.steps import Steps, stretched
-from .. import element_layers, mesh_groups
-from ..elements import FACE, Elements, Layer, Selection
-from ..matrix_layers import as_bmesh
+from ..reading import element_layers, mesh_groups
+from ..reading.elements import FACE, Elements, Layer, Selection
+from ..reading.matrix_layers import as_bmesh
 from ..temporary import removed
 
 if TYPE_CHECKING:

@@ -15,8 +15,8 @@ from ...core.arrays.indexing import inverse
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.borders import GAP
 from ...core.mesh.corners import next_of_owner
-from .. import element_layers
-from ..elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
+from ..reading import element_layers
+from ..reading.elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
 
 SHARP, FLAT = "sharp_edge", "sharp_face"  # Blender's own
 _UNLIKE = 1e-3  # by how much normals differ that are not one for the eye

@@ -29,7 +29,7 @@ def package(tmp_path_factory):
     """The name under which the extension is enabled."""
     name = checkout.enable(tmp_path_factory.mktemp("extensions"))
     # Of the few meshes that tests decompose over and over, by four methods, Blender keeps three results.
-    importlib.import_module(f"{name}.scene.compute")._KEEP = 100
+    importlib.import_module(f"{name}.scene.runs.compute")._KEEP = 100
     return name
 
 

@@ -37,7 +37,7 @@ def test_properties_mirror_the_parameters(parameters, where):
 
 def test_what_does_something_when_it_is_set_cannot_be_animated(package):
     """A frame that is shown sets nothing: the slider would move, and the parts would stay. Explode heeds frames."""
-    classes = importlib.import_module(f"{package}.scene.schema").CLASSES
+    classes = importlib.import_module(f"{package}.scene.result.schema").CLASSES
     found = {name: cls.bl_rna.properties[name].is_animatable
              for cls in classes for base in reversed(cls.__mro__)
              for name, made in getattr(base, "__annotations__", {}).items()

@@ -25,7 +25,7 @@ from snapshot import activate  # noqa: E402
 with tempfile.TemporaryDirectory() as folder:
     package = checkout.enable(Path(folder))
     bpy.ops.wm.read_homefile(use_empty=True)
-    made_objects = importlib.import_module(f"{package}.scene.made_objects")
+    made_objects = importlib.import_module(f"{package}.scene.ours.made_objects")
     made_objects.mark(one_of_each.add_one_of_each())
     vertices, faces = shapes.tube_tree(step=0.25)
     mesh = bpy.data.meshes.new("Tree")

@@ -31,8 +31,8 @@ DOORS = {"__init__", "pipeline", "handover", "worker"}
 FILES = {path.relative_to(ROOT): ast.parse(path.read_text(encoding="utf-8"))
          for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))}
 #: The folders whose docstrings have a line for each module.
-DESCRIBED = [Path("scene"), Path("viewport"), *(path.parent for path in FILES
-                                                if path.parts[0] == "core" and path.name == "__init__.py")]
+DESCRIBED = [path.parent for path in FILES
+             if path.parts[0] in {"core", "scene", "viewport"} and path.name == "__init__.py"]
 
 
 def absolute(path: Path, level: int, module: str | None) -> tuple[str, ...]:

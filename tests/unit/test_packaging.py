@@ -138,7 +138,7 @@ def test_the_panel_comes_up_without_scipy():
             for node in ast.parse(path.read_text(encoding="utf-8")).body:
                 if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("core."):
                     names.add(node.module)
-    names.discard("core.uses.report")  # of scene/object_report.py, which the command imports once SciPy is there
+    names.discard("core.uses.report")  # of scene/saving/object_report.py, which the command imports once SciPy is there
     assert "core.result.numbering" in names
     code = "import sys; sys.modules['scipy'] = None\n" + "\n".join(f"import {name}" for name in sorted(names))
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)

@@ -96,7 +96,7 @@ def draw_little():
 
 def job():
     """What a process of its own is computing, or None."""
-    current = sys.modules["bl_ext.user_default.reeb_parts.scene.jobs"].current
+    current = sys.modules["bl_ext.user_default.reeb_parts.scene.runs.jobs"].current
     return current if hasattr(current, "pid") else None
 
 

@@ -85,7 +85,7 @@ def separated(seen):
 
 def jobs():
     """The extension's module, wherever it is installed."""
-    return next(module for name, module in sys.modules.items() if name.endswith("reeb_parts.scene.jobs"))
+    return next(module for name, module in sys.modules.items() if name.endswith("reeb_parts.scene.runs.jobs"))
 
 
 def mesh():

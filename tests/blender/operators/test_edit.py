@@ -450,7 +450,7 @@ def test_a_boundary_slides_at_one_neighbor_only(obj, result, package):
 def boundary(package, obj, number):
     """As the tools read it."""
     stored = importlib.import_module(f"{package}.scene.store").load(obj.data)
-    return importlib.import_module(f"{package}.viewport.boundary").Boundary(obj, stored, number)
+    return importlib.import_module(f"{package}.viewport.modal.boundary").Boundary(obj, stored, number)
 
 
 def test_a_boundary_stops_at_a_locked_part(obj, result):

@@ -337,7 +337,7 @@ def set_up(package, name, situation, make, tree, tmp_path):
     if situation in MODES:
         bpy.ops.object.mode_set(mode=situation)
     if name == "cancel":
-        jobs = importlib.import_module(f"{package}.scene.jobs")
+        jobs = importlib.import_module(f"{package}.scene.runs.jobs")
         jobs.current = jobs.Job([], None)
     return {key: str(tmp_path / "parts") if value is FOLDER else value for key, value in arguments.items()}
 
@@ -358,7 +358,7 @@ def link_from_file(path, active):
 def no_job(package):
     """Nothing is being computed when the test is over."""
     yield
-    importlib.import_module(f"{package}.scene.jobs").current = None
+    importlib.import_module(f"{package}.scene.runs.jobs").current = None
 
 
 @pytest.fixture(scope="module")

@@ -65,7 +65,7 @@ def test_tools_do_on_a_mesh_with_seams_what_they_do_without(both, way):
 
 def test_outlines_and_curves_cross_seams(both, package):
     highlight, store = (importlib.import_module(f"{package}.{name}") for name in ("viewport.highlight", "scene.store"))
-    curves = importlib.import_module(f"{package}.scene.cut_curves")
+    curves = importlib.import_module(f"{package}.scene.pieces.cut_curves")
     steps = importlib.import_module(f"{package}.core.steps")
     lines = []
     for obj in both:

@@ -263,7 +263,7 @@ def test_an_edited_mesh_is_noticed_and_not_mislabelled(obj, result):
 
 def rested(package, obj):
     """Whether a mesh that has been left alone for a moment counts as edited."""
-    watch = importlib.import_module(f"{package}.scene.watch")
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
     watch._waiting.add(obj.data.session_uid)
     watch._last = 0.0
     watch._look()
@@ -368,7 +368,7 @@ def test_select_and_isolate(obj, result, capfd):
 
 def test_an_edit_in_edit_mode_is_noticed_and_what_is_refused_goes_back(obj, package):
     """A timer looks once the mesh rests; a large mesh is looked at when Edit Mode is left."""
-    watch = importlib.import_module(f"{package}.scene.watch")
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
     bpy.ops.reeb_parts.decompose()
     result, count = obj.data.reeb_parts, len(obj.data.reeb_parts.parts)
     place = obj.data.vertices[0].co.copy()

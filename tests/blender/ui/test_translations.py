@@ -211,7 +211,7 @@ def test_reports(said, obj, capfd):
 
 
 def test_progress(said, package):
-    jobs = importlib.import_module(f"{package}.scene.jobs")
+    jobs = importlib.import_module(f"{package}.scene.runs.jobs")
     job = jobs.Job([], None)
     job.stage, job.of = "reeb graph", "BODY"
     assert job.text == said["progress"]
@@ -219,7 +219,7 @@ def test_progress(said, package):
 
 def test_why_there_is_no_result(said, obj, package):
     jobs, bridge, parameters = (
-        importlib.import_module(f"{package}.{name}") for name in ("scene.jobs", "scene.bridge", "core.parameters"))
+        importlib.import_module(f"{package}.{name}") for name in ("scene.runs.jobs", "scene.bridge", "core.parameters"))
     for number in (signal.SIGKILL, signal.SIGSEGV):
         job = jobs.Job([("Tree", bridge.read_shape(obj))], parameters.Parameters(base_spacing=0.0005))
         job.start()
@@ -237,7 +237,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     result = bpy.data.objects["Tree"].data.reeb_parts
-    assert said["note"] in importlib.import_module(f"{package}.scene.notes").spoken(result)
+    assert said["note"] in importlib.import_module(f"{package}.scene.result.notes").spoken(result)
     lines = importlib.import_module(f"{package}.ui.panel").facts(result)
     for line, expected in zip(lines, said["facts"], strict=True):
         assert re.fullmatch(expected, line)
@@ -246,7 +246,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
 def test_json_is_english_in_every_language(said, obj, package):
     obj.modifiers.new("Bevel", "BEVEL")
     bpy.ops.reeb_parts.decompose()
-    report = importlib.import_module(f"{package}.scene.object_report").object_report(obj)
+    report = importlib.import_module(f"{package}.scene.saving.object_report").object_report(obj)
     assert ENGLISH["note"] in report["notes"]
     assert report["parts"][0]["name"] == "Part 01"
     assert "distances" in report["seconds"]
@@ -256,7 +256,7 @@ def test_notes_of_a_file_from_before_there_were_translations(obj, package):
     obj.modifiers.new("Bevel", "BEVEL")
     bpy.ops.reeb_parts.decompose()
     obj.data.reeb_parts.property_unset("note_words")
-    assert ENGLISH["note"] in importlib.import_module(f"{package}.scene.notes").spoken(obj.data.reeb_parts)
+    assert ENGLISH["note"] in importlib.import_module(f"{package}.scene.result.notes").spoken(obj.data.reeb_parts)
 
 
 def test_switched_off_leaves_no_translations(said, package):

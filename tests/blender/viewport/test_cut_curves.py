@@ -78,9 +78,11 @@ MESHES = {
 @pytest.fixture
 def modules(package):
     names = {"core": ("steps",),
-             "scene": ("cut_curves", "bridge", "mesh_arrays", "errors", "seen_points"),
-             "scene.pieces": ("part_meshes",),
-             "viewport": ("highlight", "idle", "knife", "pointing", "ring_tool")}
+             "scene": ("bridge", "errors"),
+             "scene.reading": ("mesh_arrays", "seen_points"),
+             "scene.pieces": ("cut_curves", "part_meshes"),
+             "viewport": ("highlight", "idle", "pointing"),
+             "viewport.modal": ("knife", "ring_tool")}
     return SimpleNamespace(**{name: importlib.import_module(f"{package}.{folder}.{name}")
                               for folder, several in names.items() for name in several})
 

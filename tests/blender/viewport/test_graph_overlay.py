@@ -75,7 +75,7 @@ def test_arcs_are_colored_anew_once_the_mesh_is_edited(package, markers, obj, ar
     """Those of before were drawn on over the model as it was."""
     before = markers.state(obj, list(obj.children))
     obj.data.vertices[0].co.x += 0.5
-    sys.modules[f"{package}.scene.watch"].check(obj.data)  # as a timer does
+    sys.modules[f"{package}.scene.changes.watch"].check(obj.data)  # as a timer does
     assert markers.state(obj, list(obj.children)) != before
     with refused(package):
         arcs()

@@ -255,7 +255,7 @@ def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, se
 
 
 def test_a_graph_goes_with_its_model(package, obj, settings):
-    watch = importlib.import_module(f"{package}.scene.watch")
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
     graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
     assert list(graph_objects.left_behind()) == []
     activate(obj)

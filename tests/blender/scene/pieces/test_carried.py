@@ -122,7 +122,7 @@ def test_a_vertex_group_may_be_empty(obj, cut):
 
 def test_what_a_bmesh_says_of_its_shapes_is_written(package, rich):
     # Blender itself, in 4.2, writes one of two answers, about every third time the other one.
-    module = importlib.import_module(f"{package}.scene.mesh_groups")
+    module = importlib.import_module(f"{package}.scene.reading.mesh_groups")
     for _ in range(12):
         mesh = rich.data.copy()
         bm = bmesh.new()

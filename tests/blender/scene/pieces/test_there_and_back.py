@@ -40,7 +40,7 @@ def test_there_and_back_for_all_that_is_selected(make, tree, obj):
 @pytest.mark.parametrize("way", ["objects", "hierarchy"])
 def test_the_original_is_back_once_all_pieces_are_deleted(package, obj, way):
     """It was not rendered any more, and nothing said so."""
-    watch = importlib.import_module(f"{package}.scene.watch")
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.hulls()
     bpy.ops.reeb_parts.separate()
@@ -412,7 +412,7 @@ def test_the_pieces_of_a_copy_are_its_own(obj):
 
 
 def test_the_original_is_back_once_the_collection_of_its_pieces_is_unlinked(package, obj):
-    watch = importlib.import_module(f"{package}.scene.watch")
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
     bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
     bpy.ops.reeb_parts.separate()
     bpy.context.scene.collection.children.unlink(obj.reeb_parts_made.pieces)

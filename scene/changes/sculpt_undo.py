@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Undo in Sculpt Mode, where Blender makes no step for a property that is changed in the sidebar: we do.
+
+A step is made once the properties rest, so that a drag of a slider is one.
+"""
+
+from __future__ import annotations
+
+import time
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .. import handlers
+
+REST = 0.3  # seconds
+
+_changed = 0.0  # when a property was changed last
+
+
+def soon(context: bpy.types.Context) -> None:
+    """A property was changed by the user: make a step of undo soon, if Blender does not."""
+    global _changed
+    if bpy.app.background or context.mode != "SCULPT":
+        return
+    _changed = time.monotonic()
+    if not bpy.app.timers.is_registered(_step):
+        bpy.app.timers.register(_step, first_interval=REST)
+
+
+def _step() -> float | None:
+    rested = time.monotonic() - _changed
+    if rested < REST:
+        return REST - rested
+    manager = bpy.context.window_manager
+    active = bpy.context.view_layer.objects.active
+    # To leave the mode is a step by itself.
+    if len(manager.windows) and active is not None and active.mode == "SCULPT":
+        with bpy.context.temp_override(window=manager.windows[0]):
+            bpy.ops.ed.undo_push(message="Reeb Parts")
+    return None
+
+
+@persistent
+def _undone(*_: object) -> None:
+    """What was changed is undone before it became a step, which would end what can be done again."""
+    if bpy.app.timers.is_registered(_step):
+        bpy.app.timers.unregister(_step)
+
+
+def register() -> None:
+    bpy.app.handlers.undo_pre.append(_undone)
+
+
+def unregister() -> None:
+    handlers.remove(bpy.app.handlers.undo_pre, _undone)
+    _undone()

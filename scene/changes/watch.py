@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Notice that a decomposed mesh was edited, so that the panel can say so, or deleted, so that its graph goes, too.
+
+And that all pieces of an object were deleted, so that it is seen again.
+
+A mesh is looked at once it has been left alone for a moment: while it is sculpted, nothing is computed.
+"""
+
+from __future__ import annotations
+
+import time
+
+import bmesh
+import bpy
+from bpy.app.handlers import persistent
+
+from .. import handlers, redraw, store, transaction
+from ..graph import graph_follow, graph_objects, graph_visibility
+from ..pieces import origins, piece_objects
+from ..reading import fingerprints, seen_points
+from ..temporary import removed
+from . import moved
+
+REST = 0.3  # seconds
+MOST_EDITED = 200_000  # vertices of a mesh that is looked at in Edit Mode: less than a tenth of a second
+
+_waiting: set[int] = set()  # meshes by session_uid
+_last = 0.0
+
+
+def check(mesh: bpy.types.Mesh) -> None:
+    """Set or take back the mark that a mesh differs from the one its result belongs to.
+
+    In Edit Mode a large mesh is not looked at, nor one with shape keys, of which that mode shows one: once it is left.
+    """
+    result = mesh.reeb_parts
+    if not mesh.is_editmode:
+        edited = fingerprints.fingerprint(mesh) != result.fingerprint and not moved.follow(mesh)
+    elif mesh.shape_keys or len(bmesh.from_edit_mesh(mesh).verts) > MOST_EDITED:
+        return
+    else:
+        # To write the edits to the mesh itself would be a change of it, after which we would look again, and so on.
+        copy = bpy.data.meshes.new("Reeb Parts")
+        with removed(bpy.data.meshes, copy):
+            bmesh.from_edit_mesh(mesh).to_mesh(copy)
+            edited = fingerprints.fingerprint(copy) != result.fingerprint
+    if result.edited != edited:
+        result.edited = edited
+        redraw.viewports()
+
+
+@persistent
+def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    global _last
+    deleted = depsgraph.id_type_updated("COLLECTION") or depsgraph.id_type_updated("SCENE")
+    if deleted and _is_untidy() and not bpy.app.timers.is_registered(_tidy):
+        # Not within Blender's own deletion, which has yet to become a step of undo.
+        bpy.app.timers.register(_tidy, first_interval=0.0)
+    elif deleted:
+        _hide_graphs_soon()
+    found = _changed_objects(depsgraph)
+    if not found:
+        return
+    for obj in found:
+        seen_points.evaluated(obj)
+        graph_follow.soon(obj)
+    _waiting.update(obj.data.session_uid for obj in found)
+    _last = time.monotonic()
+    if not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=REST)
+
+
+def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
+    """Decomposed objects whose shape was evaluated anew."""
+    return [update.id.original for update in depsgraph.updates
+            if update.is_updated_geometry and isinstance(update.id, bpy.types.Object)
+            and update.id.type == "MESH" and store.has_result(update.id.original.data)]
+
+
+@persistent
+def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Another frame is shown, which is no edit."""
+    for obj in _changed_objects(depsgraph):
+        seen_points.evaluated(obj)
+        graph_follow.soon(obj)
+
+
+@persistent
+def _opened(*_: object) -> None:
+    """A file was opened: where graphs are seen is not stored."""
+    graph_follow.forget()
+    graph_visibility.forget()
+    seen_points.forget()
+    for collection in bpy.data.collections:
+        source = collection.get(graph_objects.SOURCE)
+        if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
+            graph_follow.soon(source)
+
+
+def _look() -> float | None:
+    rested = time.monotonic() - _last
+    if rested < REST:
+        return REST - rested
+    for mesh in bpy.data.meshes:
+        if mesh.session_uid in _waiting and mesh.is_editable and store.has_result(mesh):
+            check(mesh)
+    _waiting.clear()
+    return None
+
+
+def _is_untidy() -> bool:
+    """Whether anything is left of objects that were deleted."""
+    return (any(graph_objects.left_behind()) or any(origins.left_behind())
+            or bool(piece_objects.hidden_for_nothing(bpy.context)))
+
+
+@persistent
+def _hide_graphs_soon(*_: object) -> None:
+    """Models may have been hidden or shown, or shown alone."""
+    if graph_visibility.is_due(bpy.context) and not bpy.app.timers.is_registered(_hide_graphs):
+        bpy.app.timers.register(_hide_graphs, first_interval=0.0)
+
+
+@persistent
+def _undone(*_: object) -> None:
+    graph_visibility.forget()
+    _hide_graphs_soon()
+
+
+def _hide_graphs() -> None:
+    """Graphs are hidden or shown with their models."""
+    with transaction.transaction():
+        graph_visibility.follow(bpy.context)
+
+
+def _tidy() -> None:
+    """Remove the graphs of objects that were deleted; their pieces stay. Show objects whose pieces were deleted."""
+    with transaction.transaction():
+        for obj in list(graph_objects.left_behind()):
+            graph_objects.remove(obj)
+        for collection in list(origins.left_behind()):
+            origins.forget_original(collection)
+        for obj in piece_objects.hidden_for_nothing(bpy.context):
+            piece_objects.show_original(bpy.context, obj)
+
+
+@persistent
+def _saving(*_: object) -> None:
+    """A file is about to be written: without a window no timer has tidied."""
+    if _is_untidy():
+        _tidy()
+
+
+def register() -> None:
+    bpy.app.handlers.depsgraph_update_post.append(_changed)
+    bpy.app.handlers.frame_change_post.append(_animated)
+    bpy.app.handlers.load_post.append(_opened)
+    bpy.app.handlers.save_pre.append(_saving)
+    bpy.app.handlers.undo_post.append(_undone)
+    bpy.app.handlers.redo_post.append(_undone)
+
+
+def unregister() -> None:
+    handlers.remove(bpy.app.handlers.redo_post, _undone)
+    handlers.remove(bpy.app.handlers.undo_post, _undone)
+    handlers.remove(bpy.app.handlers.save_pre, _saving)
+    handlers.remove(bpy.app.handlers.load_post, _opened)
+    handlers.remove(bpy.app.handlers.frame_change_post, _animated)
+    handlers.remove(bpy.app.handlers.depsgraph_update_post, _changed)
+    graph_follow.stop()
+    graph_visibility.forget()
+    seen_points.forget()
+    for timer in (_look, _tidy, _hide_graphs):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
+    _waiting.clear()

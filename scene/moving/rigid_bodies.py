@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Separated parts as rigid bodies of Blender's own simulation, with joints at the cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from .. import transaction
+from ..ours import made_objects
+from ..pieces import origins
+from ..reading import mesh_arrays, placing
+from ..store import Stored
+
+if TYPE_CHECKING:
+    from ...core.uses.moving.body_joints import BodyJoints
+
+#: How joints hold: the names of Blender's constraints.
+KINDS = ("HINGE", "POINT", "FIXED")
+# Blender solves the constraints of the whole world 10 times; so few let heavy parts sag away from light ones.
+_ITERATIONS = 50
+# Masses are as volumes, 1 kg on average, but within these: joints between much different ones are weak.
+_LIGHTEST, _HEAVIEST = 0.1, 10.0
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBodies:
+    """What was made: bodies and joints, without those that only keep bodies from pushing each other away."""
+
+    bodies: list[bpy.types.Object]
+    joints: list[bpy.types.Object]
+
+
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
+         pieces: dict[int, list[bpy.types.Object]], kind: str) -> RigidBodies:
+    """Make rigid bodies of pieces, and joints at the cuts in place of earlier ones; Object Mode.
+
+    A piece that is a rigid body already stays as it is, and so does the rigid body world if there is one.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+        That the pieces were separated from.
+    stored : Stored
+    pieces : dict of int -> list of bpy.types.Object
+        By the number of their part.
+    kind : str
+        Of KINDS. A hinge bends about the longest line of the cut.
+
+    Returns
+    -------
+    joined : RigidBodies
+    """
+    from ...core.uses.moving.body_joints import body_joints, overlapping  # imports SciPy
+    from ...core.uses.moving.hulls import part_hulls
+
+    collection = origins.make_collection(context, obj)
+    earlier = remove_joints(obj)
+    numbered = stored.shown_parts()
+    points = placing.transformed(mesh_arrays.shown_points(obj), placing.world_matrix(obj))
+    table = mesh_arrays.joined_table(obj.data, points)
+    hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
+    found = body_joints(table, numbered.parts.labels)
+    bodies = [pieces.get(number, []) for number in numbered.numbers.tolist()]
+    site = _Site(_world(context), collection, 0.05 * float(np.linalg.norm(np.ptp(points, axis=0))))
+    _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
+    joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
+    apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    for joint in (*joints, *apart):
+        origins.claim(joint, obj)
+    made_objects.mark([*joints, *apart])
+    named = [(joint.name, joint) for joint in (*joints, *apart)]
+    made_objects.hand_on(earlier.gone, named)
+    origins.follow(obj, earlier.gone, named)
+    return RigidBodies([piece for some in bodies for piece in some], joints)
+
+
+@dataclass(frozen=True, eq=False)
+class _Site:
+    """Where bodies and joints are made; size : of the empty of a joint, in units of the world."""
+
+    physics: bpy.types.RigidBodyWorld
+    collection: bpy.types.Collection
+    size: float
+
+
+#: The pieces of each part.
+_Bodies = list[list[bpy.types.Object]]
+
+
+def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray) -> None:
+    """Make bodies of the pieces that are none. volume : (count,) float64, of the hull of each part."""
+    masses = (volume / max(volume.mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
+    for some, mass in zip(bodies, masses, strict=True):
+        for piece in [piece for piece in some if piece.rigid_body is None]:
+            _add_body(site.physics, piece, mass / len(some))
+
+
+def _joints_at_cuts(site: _Site, bodies: _Bodies, found: BodyJoints, kind: str) -> list[bpy.types.Object]:
+    """A joint for each cut between parts that both have pieces."""
+    joints = []
+    for (a, b), center, axis, hinge in zip(found.pairs.tolist(), found.center, found.axis, found.hinge, strict=True):
+        if bodies[a] and bodies[b]:
+            ends = _nearest(bodies[a], center), _nearest(bodies[b], center)
+            joints.append(_joint(site, kind, ends, _place(center, axis, hinge), site.size))
+    return joints
+
+
+def _joints_within_parts(site: _Site, bodies: _Bodies) -> list[bpy.types.Object]:
+    """What was cut to fit the bed is held by the first piece of its part."""
+    return [_joint(site, "FIXED", (some[0], piece), piece.matrix_world.normalized(), site.size)
+            for some in bodies for piece in some[1:]]
+
+
+def _joints_that_hold_nothing(site: _Site, bodies: _Bodies, overlaps: np.ndarray,
+                              pairs: np.ndarray) -> list[bpy.types.Object]:
+    """Joints by which bodies that overlap at the start do not push each other away.
+
+    overlaps, pairs : (k, 2) and (j, 2) int64, parts whose hulls overlap, and those that have joints.
+    """
+    held = {tuple(pair) for pair in pairs.tolist()}
+    return [_joint(site, "GENERIC", (one, other), one.matrix_world.normalized(), 0.2 * site.size)
+            for a, b in overlaps.tolist() if (a, b) not in held for one in bodies[a] for other in bodies[b]]
+
+
+def _world(context: bpy.types.Context) -> bpy.types.RigidBodyWorld:
+    """The rigid body world of the scene, with collections for bodies and joints; made where it is not there."""
+    scene = context.scene
+    if scene.rigidbody_world is None:
+        transaction.on_failure(bpy.ops.rigidbody.world_remove)
+        bpy.ops.rigidbody.world_add()
+    physics = scene.rigidbody_world
+    for name, called in (("collection", "RigidBodyWorld"), ("constraints", "RigidBodyConstraints")):
+        if getattr(physics, name) is None:  # Blender's own operators give them these names
+            transaction.keep(physics, name)
+            setattr(physics, name, bpy.data.collections.new(called))
+    return physics
+
+
+def _add_body(physics: bpy.types.RigidBodyWorld, piece: bpy.types.Object, mass: float) -> None:
+    transaction.on_failure(_remove_body, physics.collection, piece)
+    physics.collection.objects.link(piece)  # which makes it an active body
+    body = piece.rigid_body
+    body.type, body.collision_shape, body.mass = "ACTIVE", "CONVEX_HULL", mass
+
+
+def _remove_body(bodies: bpy.types.Collection, piece: bpy.types.Object) -> None:
+    if piece.name in bodies.objects:
+        with bpy.context.temp_override(object=piece):
+            bpy.ops.rigidbody.object_remove()
+
+
+def _nearest(pieces: list[bpy.types.Object], place: np.ndarray) -> bpy.types.Object:
+    """Of several pieces of a part, the one whose surface comes nearest to a place."""
+    if len(pieces) == 1:
+        return pieces[0]
+
+    def distance(piece: bpy.types.Object) -> float:
+        points = placing.transformed(mesh_arrays.basis_points(piece.data), placing.world_matrix(piece))
+        return float(np.linalg.norm(points - place, axis=1).min())
+
+    return min(pieces, key=distance)
+
+
+def _place(center: np.ndarray, axis: np.ndarray, hinge: np.ndarray) -> Matrix:
+    """Where a joint is: x across the cut, z along the line that a hinge turns about."""
+    place = Matrix.Identity(4)
+    for column, vector in enumerate((axis, np.cross(hinge, axis), hinge, center)):
+        place.col[column][:3] = vector.tolist()
+    return place
+
+
+def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Object], place: Matrix,
+           size: float) -> bpy.types.Object:
+    """An empty with a constraint between two bodies; one that is GENERIC holds nothing."""
+    joint = bpy.data.objects.new(f"{ends[0].name} - {ends[1].name}", None)
+    joint.matrix_world = place
+    joint.empty_display_type, joint.empty_display_size = "ARROWS", size
+    site.collection.objects.link(joint)
+    site.physics.constraints.objects.link(joint)  # which makes it a constraint
+    holds = joint.rigid_body_constraint
+    holds.type, holds.object1, holds.object2 = kind, *ends
+    holds.disable_collisions = True
+    holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
+    joint[made_objects.ROLE] = "joint"
+    return joint
+
+
+def remove_joints(obj: bpy.types.Object,
+                  of: Iterable[bpy.types.Object] | None = None) -> made_objects.Earlier:
+    """Remove joints of an object that the user has not worked on; they stand for what their names say.
+
+    of : only those of these pieces.
+    """
+    joints = origins.made_of(obj, made_objects.ROLE)
+    if of is not None:
+        ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
+        joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]
+    return made_objects.remove_untouched(joints, "joint", _former_looks, lambda joint: joint.name, None)
+
+
+def _former_looks(joint: bpy.types.Object) -> str:
+    """What earlier versions kept of such an object; see made_objects.Former."""
+    place = np.round(np.array(joint.matrix_basis), 5).tolist()
+    holds = joint.rigid_body_constraint
+    values = [] if holds is None else [
+        round(value, 5) if isinstance(value, float) else value
+        for name in sorted(holds.bl_rna.properties.keys()) if name not in ("rna_type", "object1", "object2")
+        for value in [getattr(holds, name)]]
+    return str([joint.name, joint.parent is not None, place, values])

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The bones of an object's parts, and the surface that they move; of a half model with its mirror image."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...core.mesh.corners import CornerTable
+from ...core.result.numbering import NumberedParts
+from ...core.result.whole import Whole, whole_of
+from .. import bridge, store
+from ..reading import mesh_arrays, placing
+from ..result import part_names
+
+if TYPE_CHECKING:
+    from ...core.uses.moving.bones import Bones
+    from ...core.uses.moving.skinning import Weights
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """Bones and the surface that they move, in the coordinates of their armature.
+
+    Attributes
+    ----------
+    place : Matrix
+        Where the armature is in the world.
+    bones : Bones
+    names : list of str
+        What the part of each bone is called; of a half model those beside the plane with the endings of their sides.
+    table : CornerTable
+        The object's mesh; of a half model the whole, whose first vertices are those of the mesh.
+    labels : (p,) int64
+        Bone of each face of the table.
+    twin : (count,) int64
+        Bone that is the mirror image of each bone of a half model, itself if it is in the plane; empty for others.
+    on_plane : (n,) bool
+        Which vertices of a half model are on the plane; empty for others.
+    n_stiff : int
+        How many parts have no bone of their own.
+    """
+
+    place: Matrix
+    bones: Bones
+    names: list[str]
+    table: CornerTable
+    labels: np.ndarray
+    twin: np.ndarray
+    on_plane: np.ndarray
+    n_stiff: int
+
+    @property
+    def is_half(self) -> bool:
+        """Whether the object is a half model."""
+        return len(self.twin) > 0
+
+    def of_mesh(self, weights: Weights) -> Weights:
+        """The weights of the object's vertices, from those of the table's."""
+        from ...core.uses.moving.skinning import of_half  # imports SciPy
+
+        return of_half(weights, self.on_plane, self.twin) if self.is_half else weights
+
+
+def whole_model(obj: bpy.types.Object, shape: bridge.Shape, numbered: NumberedParts) -> Whole | None:
+    """The parts of a half model with their images, in the coordinates of its shape; None for any other object."""
+    if not len(shape.mirror):
+        return None
+    graph, turn = numbered.parts.decomposition.graph, shape.stretch @ bridge.unstretch(store.stretch_of(obj.data))
+    return whole_of(numbered.parts, mesh_arrays.corner_table(obj.data, shape.vertices), shape.face_area, shape.mirror,
+                    graph.node_position @ turn.T, graph.point_position @ turn.T)
+
+
+def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Skeleton:
+    """Find the bones of an object's parts; Object Mode.
+
+    limbs : bool, only bones of parts that can be bent where they are cut.
+    """
+    from ...core.uses.moving.bones import BoneSurface, PartImages, limb_bones, part_bones  # imports SciPy
+
+    mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
+    place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
+    turn = np.array(place.inverted() @ world, np.float64)
+    whole, images, area = whole_model(obj, shape, numbered), None, shape.face_area
+    if whole is None:
+        table = mesh_arrays.corner_table(mesh, placing.transformed(mesh_arrays.shown_points(obj), turn))
+    else:
+        rigid, parts, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), whole.parts, np.tile(area, 2)
+        table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
+        images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
+    graph, back = parts.decomposition.graph, turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
+    plane = parts.decomposition.plane
+    if images is None:
+        images = PartImages.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
+                                 parts.labels, area)
+    line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
+    surface = BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
+                          np.concatenate([parts.point_part, parts.node_part]), images)
+    bone_part = part_bone = np.arange(parts.count)
+    if limbs:
+        bones, bone_part, part_bone = limb_bones(surface)
+    else:
+        bones = part_bones(surface)
+    twin = np.empty(0, np.int64) if whole is None else part_bone[parts.twin[bone_part]]
+    return Skeleton(place, bones, _names(mesh, numbered, whole, bone_part), table, part_bone[parts.labels], twin,
+                    np.empty(0, bool) if whole is None else whole.on_plane,
+                    int((~np.isin(np.arange(numbered.parts.count), bone_part)).sum()))
+
+
+def _names(mesh: bpy.types.Mesh, numbered: NumberedParts, whole: Whole | None, bone_part: np.ndarray) -> list[str]:
+    """What the part of each bone is called. bone_part : of the whole, if there is one."""
+    names = [part_names.part_name(mesh, number) for number in numbered.numbers.tolist()]
+    if whole is None:
+        return [names[part] for part in bone_part.tolist()]
+    first, side = np.minimum(whole.parts.twin, np.arange(whole.parts.count)), whole.parts.side
+    return [part_names.of_side(names[first[part]], int(side[part]), first[part] != part)
+            for part in bone_part.tolist()]

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of ours a mesh has beside a result of its own: that of an object that was joined into it with Blender's Join.
+
+The attributes, groups and slots come along, but not what says whose they are. So they are taken for ours only where
+they fit together: the numbers of the parts with their colors, and groups that hold the vertices of their parts. Where
+the mesh has a result, its own outputs stay, and so do materials of both where it has some, too.
+"""
+
+from __future__ import annotations
+
+import re
+
+import bpy
+import numpy as np
+
+from .. import store, targets, transaction
+from ..outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
+from ..outputs.kept_aside import find_attribute, remove_attribute
+from ..reading import mesh_arrays
+from ..result import part_names
+from ..showing import hidden
+
+_OWN_NAME = re.compile(r"Part \d\d+(\.[LR])?")  # see core/result/numbering.py
+
+
+def may_be(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh has no result and attributes as ours: a quick look."""
+    return not store.has_result(mesh) and _has_both(mesh)
+
+
+def _has_both(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh has numbers and colors of parts, by the names that we give these."""
+    kinds = ((face_attribute.NAME, "INT", "FACE"), (colors.NAME, "BYTE_COLOR", "CORNER"))
+    return all(find_attribute(mesh, *kind) for kind in kinds)
+
+
+def remove(obj: bpy.types.Object) -> bool:
+    """Remove what of ours is left on the mesh of an object, if it is certainly ours; Object Mode. Whether it was."""
+    mesh = obj.data
+    if store.has_result(mesh):
+        return _remove_joined(obj)
+    if not may_be(mesh):
+        return False
+    numbers = _numbers(mesh)
+    if not _one_color_each(mesh, numbers):
+        return False
+    transaction.keep_mesh(mesh)
+    user = targets.users(mesh)[0]
+    for name in _groups(user, numbers):
+        vertex_groups.remove_one(user, name)
+    ours = numbers > 0
+    seams.take_back(mesh, ours)
+    face_sets.take_back(mesh, numbers)
+    materials.take_back(mesh, ours)
+    for kind in ((field.NAME, "FLOAT", "POINT"), (hidden.ATTRIBUTE, "BOOLEAN", "FACE")):
+        if find_attribute(mesh, *kind):
+            remove_attribute(mesh, kind[0])
+    for name in (colors.NAME, face_attribute.NAME):
+        remove_attribute(mesh, name)
+    mesh.update()
+    return True
+
+
+def _remove_joined(obj: bpy.types.Object) -> bool:
+    """What ``remove`` does for a mesh that has a result, and faces behind those of the result."""
+    mesh, result = obj.data, obj.data.reeb_parts
+    if len(mesh.polygons) <= result.n_faces or not _has_both(mesh):
+        return False
+    numbers = _numbers(mesh)
+    numbers[: result.n_faces] = 0
+    if not _one_color_each(mesh, numbers):
+        return False
+    user, own = targets.users(mesh)[0], {part.group for part in result.parts}
+    names = [name for name in _groups(user, numbers) if name not in own]
+    ours = numbers > 0
+    transaction.keep_mesh(mesh)
+    for name in names:
+        vertex_groups.remove_one(user, name)
+    if names and not result.has_face_sets:  # else the faces may be extruded ones of the mesh itself
+        face_sets.take_back(mesh, numbers)
+    if not result.has_seams:
+        seams.take_back(mesh, ours)
+    if not result.has_materials:
+        materials.take_back(mesh, ours)
+    return bool(names)
+
+
+def _numbers(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The number of each face's part, (p,) int32, as the attribute has it."""
+    return mesh_arrays.read(mesh.attributes[face_attribute.NAME].data, "value", np.int32)
+
+
+def _one_color_each(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
+    """Whether there are faces of parts, and all corners of those of one number have one color. numbers : (p,) int32."""
+    known = (numbers > 0) & (numbers <= part_names.MAX_NUMBER)
+    if not known.any():
+        return False
+    _, face = mesh_arrays.face_corners(mesh)
+    number = numbers[face][known[face]]
+    shade = mesh_arrays.read(mesh.attributes[colors.NAME].data, "color_srgb", np.float32, 4)[known[face]]
+    _, first, place = np.unique(number, return_index=True, return_inverse=True)
+    return bool((shade == shade[first][place]).all())
+
+
+def _groups(obj: bpy.types.Object, numbers: np.ndarray) -> list[str]:
+    """Vertex groups with the own names of parts that hold the vertices of a part, each wholly. numbers : (p,) int32."""
+    held: dict[int, dict[int, float]] = {
+        group.index: {} for group in obj.vertex_groups if _OWN_NAME.fullmatch(group.name)}
+    for item in obj.data.vertices if held else ():  # cannot be read in bulk
+        for entry in item.groups:
+            if entry.group in held:
+                held[entry.group][item.index] = entry.weight
+    vertex, face = mesh_arrays.face_corners(obj.data)
+    of_parts = {frozenset(vertex[numbers[face] == number].tolist()) for number in np.unique(numbers[numbers > 0])}
+    return [obj.vertex_groups[index].name for index, weights in held.items()
+            if frozenset(weights) in of_parts and set(weights.values()) == {1.0}]

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Caps: the faces that close pieces where they were cut.
+
+- ``caps``: makes them
+- ``cut_holes``: the holes that they close, and what has to be known of the whole for that
+- ``discs``: finds their surfaces
+- ``disc``: one of these surfaces
+- ``disc_fitting``: keeps them inside the model
+- ``body_surface``: the surface of the model, which they must not cross
+- ``cap_junctions``: leads those of several cuts to one middle
+- ``cap_looks``: gives them a place in UV maps and a material
+"""

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result of a run: whether it still fits its object, written to the object, and removed from it."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import Any
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ...core.result.numbering import NumberedParts
+from ...core.steps import Steps, finished
+from ...core.uses.graph_folding import unfolded
+from .. import bridge, outputs, property_updates, store, targets, transaction
+from ..errors import SceneError
+from ..graph import graph_objects
+from ..moving import armature
+from ..ours import orphan_outputs
+from ..outputs import uv_map
+from ..result import notes
+from ..showing import explode, hidden
+from . import succession
+from .compute import Outcome
+
+
+def check_unchanged(digests: dict[str, str]) -> None:
+    """Raise SceneError if an object is gone or was edited while it was being computed.
+
+    digests : the digest of the shape that was computed, by the name of its object.
+    """
+    for name, digest in digests.items():
+        obj = bpy.data.objects.get(name)
+        if obj is None or obj.type != "MESH":
+            raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
+        targets.check_object(obj)
+        if bridge.read_shape(obj).digest != digest:
+            raise SceneError(
+                rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
+
+
+def detail_of(obj: bpy.types.Object | None) -> dict[str, float | int]:
+    """The detail and the number of parts that an object shows, as parameters of its next run; none without parts."""
+    if obj is None or not store.has_parts(obj):
+        return {}
+    result = obj.data.reeb_parts
+    return {"detail": result.detail, "n_parts": result.n_parts if result.by_number else 0}
+
+
+def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> int:
+    """Write one object's parts and graph; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    outcome : Outcome
+        With a decomposition.
+    settings
+        Has the values of OutputProperties and OverlayProperties.
+
+    Returns
+    -------
+    kept : int
+        Nodes of an earlier graph that were left alone, see graph_objects.draw_graph.
+    """
+    return finished(writing_result(context, obj, outcome, settings))
+
+
+def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> Steps[int]:
+    """What ``write_result`` does, in steps."""
+    mesh, decomposition = obj.data, outcome.decomposition
+    assert decomposition is not None
+    parameters = decomposition.parameters
+    transaction.keep_mesh(mesh)
+    _keep_colors(mesh)
+    orphan_outputs.remove(obj)
+    stored = succession.succeed(obj, outcome.shape, decomposition)
+    numbered = stored.shown_parts()
+    result = mesh.reeb_parts
+    yield 0.1
+    with property_updates.quiet():
+        store.save(mesh, stored)
+        yield 0.4
+        result.object_name = obj.name
+        result.stretch = outcome.shape.stretch.ravel().tolist()
+        result.seconds = outcome.seconds
+        notes.keep(result, decomposition.notes + outcome.shape.notes)
+        result.detail, result.by_number, result.asked = parameters.detail, parameters.n_parts > 0, 0
+        if result.by_number:
+            store.go_to_number(result, stored.numbering, numbered.parts.count)
+            result.asked = 0 if numbered.parts.count == parameters.n_parts else parameters.n_parts
+        outputs.write_outputs(obj, numbered, decomposition.field, settings)
+        outputs.keep_places(mesh, numbered)
+    store.mark_pins(mesh, stored)
+    yield 0.8
+    kept = 0
+    # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
+    for user in targets.users(mesh):
+        if settings.graph and (user == obj or graph_objects.exists(user)):
+            kept += draw_graph(context, user, numbered, settings)
+        else:
+            graph_objects.remove(user)
+    return kept
+
+
+def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, settings: Any) -> int:
+    """Draw the graph of parts that are stored with an object's mesh, hidden at first where it would cover the model.
+
+    settings : has the values of OverlayProperties. Returns how many nodes of an earlier graph were left alone.
+    """
+    kept = graph_objects.draw_graph(context, obj, numbered, settings)
+    graph_objects.set_hidden(context, obj, shows_clutter(numbered))
+    return kept
+
+
+def shows_clutter(numbered: NumberedParts) -> bool:
+    """Whether the graph of some parts would cover the model rather than show anything; it is hidden at first then."""
+    graph, parts = numbered.parts.decomposition.graph, numbered.parts
+    return graph_objects.is_crowded(graph, unfolded(graph, parts.node_part, parts.point_part)[0])
+
+
+def _keep_colors(mesh: bpy.types.Mesh) -> None:
+    """Let the parts that take over numbers of the result before have its colors."""
+    if store.has_result(mesh):
+        with suppress(SceneError):  # it cannot be read any more
+            outputs.keep_places(mesh, store.last(mesh).shown_parts())
+
+
+def clear(obj: bpy.types.Object) -> str:
+    """Remove parts, graph and stored result of an object; Object Mode.
+
+    Returns the name of the UV map along cuts if it was changed by hand, and so stays, else "".
+    """
+    transaction.keep_mesh(obj.data)
+    orphan_outputs.remove(obj)
+    for user in targets.users(obj.data):
+        explode.forget(user)
+        hidden.forget(user)
+        armature.remove_modifier(user)
+        graph_objects.remove(user)
+    hidden.forget_faces(obj.data)
+    armature.remove_weights(obj.data)
+    staying = uv_map.remove(obj.data)
+    outputs.remove_outputs(obj)
+    transaction.unset_group(obj.data, "reeb_parts")
+    return staying

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A new result for a mesh that had one: its parts take over numbers, and what was changed by hand stays as it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ...core.mesh.labels import majority
+from ...core.result.decomposition import Decomposition
+from ...core.result.numbering import inherited
+from .. import bridge, store
+from ..bridge import Shape
+from ..errors import SceneError
+from ..outputs import face_attribute
+from ..reading import mesh_arrays
+from ..result import part_names
+from ..store import Stored
+
+
+@dataclass(frozen=True, eq=False)
+class _Former:
+    """What faces were in until now.
+
+    number : (p,) int64, the part of each face, 0 for one that is new; pinned : (p,) int64, the same of faces of pinned
+    parts, 0 for others.
+    """
+
+    number: np.ndarray
+    pinned: np.ndarray
+
+    def of_candidates(self, decomposition: Decomposition) -> tuple[np.ndarray, np.ndarray]:
+        """The number that most faces of each candidate had, and that they are pinned to, (c,) int64 each."""
+        found, weight = decomposition, np.ones(len(self.number))
+        return (majority(found.candidates, self.number, weight, found.n_candidates),
+                majority(found.candidates, self.pinned, weight, found.n_candidates))
+
+
+def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -> Stored:
+    """A new result for an object's mesh; its parts take over the numbers of those that the faces were in until now.
+
+    Pinned parts keep their faces: candidates are cut where they reach into one. New faces are pinned where most of
+    their candidate is. shape : of the object, see ``bridge.read_shape``.
+    """
+    previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
+    former = _former(obj.data)
+    if former is not None and len(former.number) == decomposition.n_faces and former.number.any():
+        previous, pinned = former.of_candidates(decomposition)
+        if former.pinned.any():
+            decomposition = _cut_around_pins(obj, shape, decomposition, former, pinned[decomposition.candidates])
+            previous, pinned = former.of_candidates(decomposition)
+    parameters = decomposition.parameters
+    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, previous, pinned)
+    return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
+
+
+def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition, former: _Former,
+                     most: np.ndarray) -> Decomposition:
+    """The decomposition with candidates none of which has faces of two pinned parts, or of one and of others.
+
+    most : (p,) int64, what most faces of each face's candidate are pinned to; new faces go with them.
+    """
+    from ...core.result.editing.changes import split_around
+
+    pinned = np.where(former.number > 0, former.pinned, most)
+    if np.array_equal(pinned, most):
+        return decomposition
+    return split_around(decomposition, pinned, *bridge.face_graph(obj, shape))
+
+
+def _former(mesh: bpy.types.Mesh) -> _Former | None:
+    """The parts of a mesh's faces until now, None if it had none. Survives edits of the mesh."""
+    if not store.has_result(mesh):
+        return None
+    result = mesh.reeb_parts
+    try:
+        old = store.load(mesh)
+    except SceneError:  # edited, or from another version: what is left is on the faces
+        pass
+    else:
+        # A part of a finer level that the user has named or colored is found again by the next run, too.
+        kept = np.isin(old.shown, [entry.number for entry in result.names])
+        candidates = old.decomposition.candidates
+        return _Former(np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates])
+    attribute = face_attribute.find(mesh)
+    faces = np.zeros(len(mesh.polygons), np.int64)
+    if attribute is not None and len(attribute.data) == len(faces):
+        faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
+        faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0
+    pinned = [part.number for part in result.parts if part.pinned]
+    return _Former(faces, np.where(np.isin(faces, pinned), faces, 0))

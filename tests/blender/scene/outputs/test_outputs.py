@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams, face sets and materials after the fact: the same as if decompose had been asked for them."""
+
+import importlib
+import time
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import check_undo, snapshot
+
+OPERATORS = {"seams": "seams", "face_sets": "face_sets", "materials": "materials"}
+
+
+def run(name, **options):
+    return getattr(bpy.ops.reeb_parts, name)(**options)
+
+
+@pytest.fixture
+def scene_module(package):
+    """A function that gives a module of the extension's scene by its name."""
+    return lambda name: importlib.import_module(f"{package}.scene.{name}")
+
+
+@pytest.fixture
+def owned(obj):
+    """The tree with seams, face sets and materials of the user's."""
+    mesh = obj.data
+    mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", [7] * len(mesh.polygons))
+    mesh.edges.foreach_set("use_seam", [i % 5 == 0 for i in range(len(mesh.edges))])
+    for name in ("Red", "Green"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    mesh.polygons.foreach_set("material_index", [i % 2 for i in range(len(mesh.polygons))])
+    return obj
+
+
+def contents(mesh_name="Tree"):
+    """The mesh, and the materials without their suffixes of former runs."""
+    seen = snapshot()
+    return seen["meshes"][mesh_name], sorted(seen["materials"])
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_the_same_as_decompose_would_have_written(owned, name):
+    bpy.ops.reeb_parts.decompose(**{name: True})
+    wanted = contents()
+    bpy.ops.reeb_parts.clear()
+    bpy.ops.reeb_parts.decompose()
+    assert run(name) == {"FINISHED"}
+    assert contents() == wanted
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_taken_back_everything_is_as_before(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    run(name)
+    assert snapshot() != before
+    run(name, remove=True)
+    assert snapshot() == before
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_twice_is_once(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    run(name)
+    once = snapshot()
+    run(name)
+    assert snapshot() == once
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_they_follow_the_parts(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    run(name)
+    owned.data.reeb_parts.n_parts = 2
+    followed = contents()
+    run(name, remove=True)
+    run(name)
+    assert contents() == followed
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])
+def test_from_every_mode(owned, name, mode):
+    bpy.ops.reeb_parts.decompose()
+    run(name)
+    wanted = contents()
+    run(name, remove=True)
+    bpy.ops.object.mode_set(mode=mode)
+    run(name)
+    assert owned.mode == mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert contents()[0]["seams"] == wanted[0]["seams"]
+    assert contents()[0]["slots"] == wanted[0]["slots"]
+    face_sets = ".sculpt_face_set"
+    assert contents()[0]["attributes"][face_sets] == wanted[0]["attributes"][face_sets]
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_undo(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    check_undo(lambda: run(name))
+
+
+@pytest.mark.parametrize("name", ["reeb_part", "Reeb Parts", "reeb_agd"])
+@pytest.mark.parametrize(("kind", "domain"), [("FLOAT", "FACE"), ("FLOAT_COLOR", "POINT"), ("INT", "CORNER")])
+def test_what_was_converted_is_not_written_any_more(obj, name, kind, domain):
+    """After Blender's Convert Attribute every change of the parts ended with a traceback."""
+    bpy.ops.reeb_parts.decompose(field=True)
+    attributes = obj.data.attributes
+    attributes.active = attributes[name]
+    bpy.ops.geometry.attribute_convert(data_type=kind, domain=domain)
+    converted = snapshot()["meshes"]["Tree"]["attributes"][name]
+    obj.data.reeb_parts.n_parts = 3
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert len(obj.data.reeb_parts.parts) == 2
+    obj.reeb_parts_made.explode = 0.5
+    bpy.ops.reeb_parts.decompose(field=True)  # makes new ones beside it
+    result = obj.data.reeb_parts
+    found = [attributes[written] for written in (result.face_attribute, result.color_attribute, result.field_attribute)]
+    assert [(a.data_type, a.domain) for a in found] == [
+        ("INT", "FACE"), ("BYTE_COLOR", "CORNER"), ("FLOAT", "POINT")]
+    assert snapshot()["meshes"]["Tree"]["attributes"][name] == converted
+
+
+def test_a_script_may_remove_all_attributes_that_can_be_removed(owned):
+    """Where face sets or seams had been written, every change of the parts ended with a traceback."""
+    bpy.ops.reeb_parts.decompose(face_sets=True, seams=True, materials=True)
+    for name in [attribute.name for attribute in owned.data.attributes if not attribute.is_required]:
+        owned.data.attributes.remove(owned.data.attributes[name])
+    owned.data.reeb_parts.n_parts = 3
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert len(owned.data.reeb_parts.parts) == 2
+    bpy.ops.reeb_parts.seams()
+    assert any(edge.use_seam for edge in owned.data.edges)
+    bpy.ops.reeb_parts.clear()
+    assert not any(edge.use_seam for edge in owned.data.edges)
+
+
+def members(obj, group):
+    """Vertices of a vertex group with their weights."""
+    index = obj.vertex_groups[group].index
+    return {v.index: g.weight for v in obj.data.vertices for g in v.groups if g.group == index}
+
+
+@pytest.mark.parametrize("deleted", [[0], [1, 2], [-1]])
+def test_a_group_deleted_by_hand_comes_back_and_leaves_no_vertex_in_another(obj, deleted):
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    result = obj.data.reeb_parts
+    for index in deleted:
+        obj.vertex_groups.remove(obj.vertex_groups[result.parts[index].group])
+    for count in (5, 2, 4):
+        result.n_parts = count
+        assert len(obj.vertex_groups) == len(result.parts) == count
+        numbers = [item.value for item in obj.data.attributes["reeb_part"].data]
+        for part in result.parts:
+            faces = [f for f in obj.data.polygons if numbers[f.index] == part.number]
+            assert members(obj, part.group) == {v: 1.0 for f in faces for v in f.vertices}
+
+
+def test_many_vertex_groups_do_not_slow_down_what_is_read_and_written_of_faces_and_edges(obj, scene_module):
+    """Blender 5 looks through all of them at each face and edge, if it is asked for one by one."""
+    arrays, mesh = scene_module("reading.mesh_arrays"), obj.data
+    for index in range(3000):
+        obj.vertex_groups.new(name=f"Bone {index}")
+    keys = {"polygons": ("hide", "select", "material_index"), "edges": ("hide", "select", "use_seam", "use_edge_sharp"),
+            "vertices": ("hide", "select")}
+    rng, began = np.random.default_rng(0), time.process_time()
+    for items, key in ((items, key) for items, some in keys.items() for key in some):
+        assert not arrays.element_values(mesh, items, key).any() or key == "select"
+        wanted = rng.integers(0, 2, len(getattr(mesh, items))).astype(arrays.element_values(mesh, items, key).dtype)
+        arrays.set_element_values(mesh, items, key, wanted)
+        assert (arrays.element_values(mesh, items, key) == wanted).all()
+        for index in (0, 1, 77):
+            assert getattr(getattr(mesh, items)[index], key) == wanted[index], key
+    assert time.process_time() - began < 0.2  # 3 s where Blender looks for each
+
+
+def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path):
+    bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.materials.new("Part 01")}, fake_user=True)
+    bpy.data.materials.remove(bpy.data.materials["Part 01"])
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.materials = ["Part 01"]
+    (linked,) = wanted.materials
+    obj.data.materials.append(linked)
+    bpy.ops.reeb_parts.decompose(materials=True)
+    used = {obj.data.materials[polygon.material_index] for polygon in obj.data.polygons}
+    assert linked not in used
+    assert len(used) == len(obj.data.reeb_parts.parts)
+
+
+def test_no_group_of_ours_has_the_name_of_a_bone_that_moves_the_model(obj):
+    """The user's armature would have moved the faces of the part "head", which had no group of this name before."""
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name in ("Part 01", "head", "held", "control"):
+        bone = rig.data.edit_bones.new(name)
+        bone.tail = (0.0, 0.0, 1.0)
+        bone.use_deform = name != "control"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for bone in rig.pose.bones:
+        bone.location.x = 3.0
+    bpy.context.view_layer.objects.active = obj
+    obj.modifiers.new("Rig", "ARMATURE").object = rig
+    obj.vertex_groups.new(name="held")
+    before = seen_vertices(obj)
+    bpy.ops.reeb_parts.decompose()
+    parts = obj.data.reeb_parts.parts
+    assert (parts[0].name, parts[0].group) == ("Part 01", "Part 01.001")
+    for index, name in enumerate(("head", "held", "control")):
+        parts[index].name = name
+    assert [part.group for part in parts][:3] == ["head.001", "held.001", "control"]
+    assert seen_vertices(obj) == before
+    obj.data.reeb_parts.detail = 0.9
+    assert [part.group for part in parts if part.name in ("head", "held")] == ["head.001", "held.001"]
+    assert seen_vertices(obj) == before
+    bpy.ops.reeb_parts.clear()
+    assert obj.vertex_groups.keys() == ["held"]
+
+
+def seen_vertices(obj):
+    """Where the vertices are with all modifiers."""
+    bpy.context.view_layer.update()
+    return [tuple(vertex.co) for vertex in obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.vertices]

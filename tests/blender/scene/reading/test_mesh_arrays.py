@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The arrays of a mesh are what Blender itself would give."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+from bulk import read
+
+
+@pytest.mark.parametrize("flat", [False, True])
+@pytest.mark.parametrize("corners", [(3, 7), (3, 5), (4, 5)])  # from, to less than
+def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, flat, corners):
+    """Random ones, most of them not flat or crossing themselves, and some with three equal corners."""
+    module = importlib.import_module(f"{package}.scene.reading.mesh_arrays")
+    count = np.random.default_rng(0).integers(*corners, 600)
+    points = np.random.default_rng(1).normal(size=(count.sum(), 3)).astype(np.float32)
+    points = points.round() if flat else points
+    mesh = bpy.data.meshes.new("Faces")
+    first = np.cumsum(count) - count
+    mesh.from_pydata(points.tolist(), [], [list(range(a, a + n)) for a, n in zip(first, count, strict=True)])
+    mesh.calc_loop_triangles()
+    triangles, face = module.triangles(mesh)
+    assert np.array_equal(triangles, read(mesh.loop_triangles, "vertices", np.int32, 3))
+    assert np.array_equal(face, read(mesh.loop_triangles, "polygon_index", np.int32))
+
+
+def test_an_attribute_that_only_has_the_name_of_a_setting_is_left_alone(package):
+    module = importlib.import_module(f"{package}.scene.reading.mesh_arrays")
+    mesh = bpy.data.meshes.new("Face")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    mine = mesh.attributes.new("material_index", "FLOAT", "POINT")
+    if mine is None:  # Blender 4 makes none
+        assert bpy.app.version < (5, 0)
+        return
+    mine.data.foreach_set("value", np.array([0.25, 0.5, 0.75], np.float32))
+    module.set_element_values(mesh, "polygons", "material_index", np.array([1]))
+    assert module.element_values(mesh, "polygons", "material_index").tolist() == [0]
+    assert read(mesh.attributes["material_index"].data, "value").tolist() == [0.25, 0.5, 0.75]

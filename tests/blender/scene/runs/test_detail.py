@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Detail and the number of parts are one thing; both, and all that was given to parts, outlast an edit of the mesh."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose()
+    return obj.data.reeb_parts
+
+
+def levels(obj, package):
+    store = importlib.import_module(f"{package}.scene.store")
+    return store.load(obj.data).numbering.strong_levels().tolist()
+
+
+def test_a_number_of_parts_moves_the_detail_to_where_it_is(obj, result):
+    for count in (5, 1):  # between them, two branches at a time are cut off as clearly as each other
+        result.n_parts = count
+        assert len(result.parts) == count
+        shown = [part.number for part in result.parts]
+        # A nudge that is smaller than the way to the next cut changes nothing.
+        result.detail = result.detail + 1e-5
+        assert [part.number for part in result.parts] == shown
+
+
+def test_more_detail_after_a_number_adds_to_these_parts(result):
+    result.n_parts = 2
+    faces = [part.number for part in result.parts]
+    while len(result.parts) == 2:
+        result.detail += 0.01
+    assert len(result.parts) in {3, 4, 5}  # the branches are alike
+    assert set(faces) <= {part.number for part in result.parts}
+
+
+def test_a_number_that_cannot_be_had_is_told(result):
+    result.n_parts = 3
+    assert result.asked == 0
+    result.n_parts = 1_000_000
+    assert (result.asked, result.fewest, result.n_parts) == (1_000_000, 1, result.most)
+    assert len(result.parts) == result.most
+    result.detail = 0.5
+    assert result.asked == 0
+
+
+def test_a_run_with_a_number_is_as_if_it_had_been_typed(obj, result):
+    """Detail is where there are so many parts: whoever drags it on begins there."""
+    result.n_parts = 5
+    typed = result.detail, result.fewest, result.most, result.asked
+    bpy.ops.reeb_parts.clear()
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    result = obj.data.reeb_parts
+    assert (result.detail, result.fewest, result.most, result.asked) == typed
+    result.detail += 1e-5  # smaller than the way to the next cut
+    assert len(result.parts) == 5
+
+
+def test_a_run_tells_of_a_number_that_cannot_be_had(obj, result, capfd):
+    """In the report, in the panel and among the notes, also where the parts were computed before; and never later."""
+    capfd.readouterr()
+    bpy.ops.reeb_parts.decompose(n_parts=5000)
+    result = obj.data.reeb_parts
+    note = f"5000 parts were asked for; there are {result.most} at most."
+    assert f"Info: {note}" in capfd.readouterr().out
+    assert (result.asked, result.n_parts, len(result.parts)) == (5000, result.most, result.most)
+    assert note in result.notes.splitlines()
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    assert result.asked == 0
+    assert "asked for" not in result.notes
+
+
+def test_steps_go_from_one_clear_choice_to_the_next_and_back(obj, result, package):
+    result.n_parts = 1
+    there = [1]
+    while len(there) < 5:
+        bpy.ops.reeb_parts.step_detail(more=True)
+        there.append(len(result.parts))
+    assert there == levels(obj, package)[:5]
+    assert 5 in there  # the trunk and its four branches
+    for count in reversed(there[:-1]):
+        bpy.ops.reeb_parts.step_detail(more=False)
+        assert len(result.parts) == count
+    with pytest.raises(RuntimeError, match="no fewer parts"):
+        bpy.ops.reeb_parts.step_detail(more=False)
+    result.n_parts = 1_000_000
+    with pytest.raises(RuntimeError, match="no more parts"):
+        bpy.ops.reeb_parts.step_detail(more=True)
+
+
+def test_the_panel_decomposes_an_edited_mesh_at_the_detail_that_it_shows(obj, result, package):
+    results = importlib.import_module(f"{package}.scene.runs.results")
+    assert results.detail_of(obj) == {"detail": pytest.approx(0.5), "n_parts": 0}
+    result.n_parts = 4
+    assert results.detail_of(obj)["n_parts"] == 4
+    result.detail = 0.7
+    assert results.detail_of(obj) == {"detail": pytest.approx(0.7), "n_parts": 0}
+    bpy.ops.reeb_parts.clear()
+    assert results.detail_of(obj) == {}
+    assert results.detail_of(None) == {}
+
+
+def looks(result):
+    return {part.number: (part.name, tuple(np.round(part.color, 5)), part.locked, part.pinned)
+            for part in result.parts}
+
+
+def edit(mesh):
+    """Half of the faces are cut in two by another edge, and all points move a little."""
+    import bmesh
+
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    bmesh.ops.subdivide_edges(work, edges=[edge for edge in work.edges if edge.index % 7 == 0], cuts=1)
+    bmesh.ops.triangulate(work, faces=work.faces[:])
+    work.to_mesh(mesh)
+    work.free()
+    mesh.update()
+
+
+def test_what_was_given_to_parts_outlasts_an_edit(obj, result, package):
+    results = importlib.import_module(f"{package}.scene.runs.results")
+    result.detail = 0.6
+    parts = result.parts
+    parts[1].name = "Arm"
+    parts[2].color = (1.0, 0.0, 1.0)
+    parts[3].locked = True
+    before = looks(result)
+    edit(obj.data)
+    bpy.ops.reeb_parts.decompose(**results.detail_of(obj))
+    after = looks(result)
+    same = before.keys() & after.keys()
+    assert len(same) >= 5
+    assert {number: after[number] for number in same} == {number: before[number] for number in same}
+
+
+@pytest.mark.parametrize("change", [{"detail": 0.9}, {"n_parts": 3}])
+def test_detail_stays_when_a_script_decomposes_again(obj, result, change):
+    for name, value in change.items():
+        setattr(result, name, value)
+    shown = (pytest.approx(result.detail), result.by_number, [part.number for part in result.parts])
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    assert (result.detail, result.by_number, [part.number for part in result.parts]) == shown
+    bpy.ops.reeb_parts.decompose(colors=False)
+    assert (result.detail, result.by_number, [part.number for part in result.parts]) == shown
+
+
+def test_what_a_script_says_of_the_parts_wins(result):
+    result.n_parts = 3
+    bpy.ops.reeb_parts.decompose(detail=0.9)
+    assert (result.detail, result.by_number) == (pytest.approx(0.9), False)
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    assert (len(result.parts), result.by_number) == (2, True)
+    bpy.ops.reeb_parts.decompose(n_parts=0)
+    assert not result.by_number
+
+
+def test_nothing_leaves_dynamic_topology(obj, result):
+    """Buttons refuse there, for the sculpted mesh is not the object's; but sliders, and what takes back a failed
+    command, left it and came back."""
+    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.sculpt.dynamic_topology_toggle()
+    order, detail = obj.data.attributes.keys(), result.detail
+    result.detail, result.n_parts = 0.9, 3
+    result.parts[0].color, result.parts[0].locked = (1, 0, 0), True
+    for operator in (bpy.ops.reeb_parts.decompose, bpy.ops.reeb_parts.clear):
+        with pytest.raises(RuntimeError, match="Switch Dyntopo off"):
+            operator()
+    assert (result.detail, len(result.parts), result.parts[0].locked) == (detail, 5, False)
+    assert obj.data.attributes.keys() == order  # another one, and masks, when the mesh has come back from sculpting
+
+
+def test_detail_of_several_selected_models_is_set_together(make, tree):
+    first, second, third = (make((tree[0] * size, tree[1]), name) for size, name in ((1, "A"), (2, "B"), (3, "C")))
+    for obj in (first, second, third):
+        obj.select_set(True)
+    bpy.ops.reeb_parts.decompose()
+    third.select_set(False)
+    bpy.context.view_layer.objects.active = first
+    first.data.reeb_parts.n_parts = 3
+    assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [3, 3, 5]
+    bpy.ops.object.mode_set(mode="EDIT")  # both: only those that are not edited were set
+    first.data.reeb_parts.detail = 0.5
+    assert [obj.mode for obj in (first, second, third)] == ["EDIT", "EDIT", "OBJECT"]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [5, 5, 5]
+    # A script that sets the detail of a model that is not the active one means this one alone.
+    second.data.reeb_parts.n_parts = 2
+    assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [5, 2, 5]
+
+
+def faces_of(obj, name):
+    """Which faces the part of a name has."""
+    number = next((part.number for part in obj.data.reeb_parts.parts if part.name == name), -1)
+    return np.array([value.value for value in obj.data.attributes["reeb_part"].data]) == number
+
+
+def test_a_name_outlasts_another_run_while_fewer_parts_are_shown(obj, result):
+    """By another method, so that numbers do not come out the same by themselves."""
+    bpy.ops.reeb_parts.decompose(method="berretti", detail=0.5)
+    branch = sorted(result.parts, key=lambda part: part.share)[len(result.parts) // 2]
+    branch.name = "Branch"
+    before = faces_of(obj, "Branch")
+    result.detail = 0.0
+    assert "Branch" not in [part.name for part in result.parts]
+    bpy.ops.reeb_parts.decompose(method="perceptual", detail=0.5)
+    after = faces_of(obj, "Branch")
+    assert (before & after).sum() > 0.9 * max(before.sum(), after.sum()) > 0
+
+
+def test_what_is_ticked_stays_ticked_while_the_detail_is_dragged(result):
+    result.detail = 0.5
+    ticked = result.parts[1].number
+    result.parts[1].selected = True
+    for detail in (0.6, 0.8, 0.5):
+        result.detail = detail
+        assert [part.number for part in result.parts if part.selected] == [ticked]
