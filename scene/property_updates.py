@@ -14,8 +14,9 @@ _writing = False
 def quiet() -> Iterator[None]:
     """Write properties without their update functions doing anything."""
     global _writing
-    before, _writing = _writing, True
+    before = _writing
     try:
+        _writing = True
         yield
     finally:
         _writing = before

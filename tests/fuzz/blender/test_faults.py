@@ -53,6 +53,23 @@ def small(package):
     return shapes.tube_tree(step=0.25)
 
 
+class Keys:
+    """In place of random keys: the same in every trial, so that what comes out can be compared."""
+
+    count = 0
+
+    @classmethod
+    def token_hex(cls, size):
+        cls.count += 1
+        return f"{cls.count:0{2 * size}x}"
+
+
+@pytest.fixture(autouse=True)
+def same_keys(monkeypatch, package):
+    """Pieces get the same keys in every trial."""
+    monkeypatch.setattr(importlib.import_module(f"{package}.scene.pieces.origins"), "secrets", Keys)
+
+
 @contextmanager
 def silent():
     """What Blender says of the faults is not shown."""
@@ -101,10 +118,12 @@ class Trial:
         bpy.ops.ed.undo_push(message="before")
         self.others = self.allowed()
         self.before = snapshot()
+        Keys.count = 0  # those of the command follow
 
     def fault(self, place):
         """What is wrong after a fault before the place-th line: where it was, and the changes; None if nothing is."""
         injector = Injector(self.folders, place)
+        Keys.count = 0
         with silent():
             try:
                 done = injector.run(self.work)
