@@ -171,7 +171,7 @@ def test_the_marks_are_those_of_the_extension():
     root = DATA.parents[1]
     marks = (root / "package" / "blender_export.py").read_text(encoding="utf-8")
     scene = "".join((root / "scene" / name).read_text(encoding="utf-8")
-                    for name in ("made_objects.py", "pieces/piece_objects.py"))
+                    for name in ("ours/made_objects.py", "pieces/origins.py"))
     for mark in ("reeb_parts_role", "reeb_parts_number", "reeb_parts_dowel", "reeb_parts_pieces_of"):
         assert f'"{mark}"' in marks
         assert f'= "{mark}"' in scene
