@@ -204,8 +204,10 @@ def _inside(obj: bpy.types.Object) -> list[bpy.types.Object]:
 def _away(obj: bpy.types.Object) -> list[bpy.types.Object]:
     """What was made from an object's parts and lies elsewhere."""
     key, collection = _key(obj), collection_of(obj)
+    if not key:
+        return []
     inside = set(collection.objects) if collection is not None else set()
-    found = [item for item in bpy.data.objects if key and KEY in item and item[KEY] == key and item not in inside
+    found = [item for item in bpy.data.objects if item.get(KEY) == key and item not in inside
              and item.library == obj.library and item.override_library is None]
     if not found or _owners().get(key) != obj:
         return []
