@@ -122,8 +122,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         modifier.object = rig
     else:
         remove_modifier(obj)
-    made_objects.hand_on(earlier.gone, [(role, rig)])
-    origins.follow(obj, earlier.gone, [(role, rig)])
+    origins.hand_on(obj, earlier.gone, [(role, rig)])
     return Made(rig, found.n_stiff, earlier.kept)
 
 

@@ -69,9 +69,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
             collection.objects.link(found[-1])
             origins.claim(found[-1], obj)
     made_objects.mark(found)
-    new = [(_stands_for(hull), hull) for hull in found]
-    made_objects.hand_on(earlier.gone, new)
-    origins.follow(obj, earlier.gone, new)
+    origins.hand_on(obj, earlier.gone, [(_stands_for(hull), hull) for hull in found])
     return Made(found, earlier.kept)
 
 

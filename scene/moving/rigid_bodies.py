@@ -75,9 +75,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     for joint in (*joints, *apart):
         origins.claim(joint, obj)
     made_objects.mark([*joints, *apart])
-    named = [(joint.name, joint) for joint in (*joints, *apart)]
-    made_objects.hand_on(earlier.gone, named)
-    origins.follow(obj, earlier.gone, named)
+    origins.hand_on(obj, earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
     return RigidBodies([piece for some in bodies for piece in some], joints)
 
 

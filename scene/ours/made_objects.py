@@ -113,26 +113,37 @@ def needed(items: Collection[bpy.types.Object], stands_for: StandsFor,
     return {item for item, users in _users(left).items() if any(map(_is_users, users))}
 
 
-def hand_on(gone: Iterable[tuple[str, bpy.types.Object]], new: Iterable[tuple[str, bpy.types.Object]]) -> None:
-    """Have whatever refers to objects that go refer to new ones that stand for the same, at the end.
+def heirs(gone: Iterable[tuple[str, bpy.types.Object]], new: Iterable[tuple[str, bpy.types.Object]]
+          ) -> list[tuple[bpy.types.Object, bpy.types.Object]]:
+    """Objects that go, each with the new one that stands for the same, as far as there is one.
 
-    Inside a transaction, until whose end they are still there. Where fewer of these stand for the same than before, the
-    last takes the places of all that are left.
+    Where fewer of these stand for the same than before, the last takes the places of all that are left.
     """
-    heirs = defaultdict(list)
+    waiting, found = defaultdict(list), []
     for key, item in new:
-        heirs[key].append(item)
-    before = list(gone)
-    used = _users([item for _, item in before])
-    for key, item in before:
-        several = heirs[key]
-        if several and item in used:
+        waiting[key].append(item)
+    for key, item in gone:
+        several = waiting[key]
+        if several:
+            found.append((item, several[0]))
+        if len(several) > 1:
+            del several[0]
+    return found
+
+
+def hand_on(gone: Iterable[tuple[str, bpy.types.Object]], new: Iterable[tuple[str, bpy.types.Object]]) -> None:
+    """Have whatever refers to objects that go refer to their ``heirs``, at the end.
+
+    Inside a transaction, until whose end they are still there.
+    """
+    pairs = heirs(gone, new)
+    used = _users([item for item, _ in pairs])
+    for item, heir in pairs:
+        if item in used:
             # Out of its collections first: a new object would take its places in these, too, next to its own.
             for collection in item.users_collection:
                 transaction.at_end(collection.objects.unlink, item)
-            transaction.at_end(item.user_remap, several[0])
-        if len(several) > 1:
-            del several[0]
+            transaction.at_end(item.user_remap, heir)
 
 
 def _users(items: Collection[bpy.types.Object]) -> dict[bpy.types.Object, set[bpy.types.ID | None]]:

@@ -9,7 +9,6 @@ pasted, and appends it with every piece.
 from __future__ import annotations
 
 import secrets
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 import bpy
@@ -60,21 +59,19 @@ def claim(item: bpy.types.Object, obj: bpy.types.Object) -> None:
     item[KEY] = _key(obj)
 
 
-def follow(obj: bpy.types.Object, gone: Iterable[tuple[str, bpy.types.Object]],
-           new: Iterable[tuple[str, bpy.types.Object]]) -> None:
-    """Put what was made anew into the collections to which the user moved what was there; see made_objects.hand_on."""
-    around, own, heirs = Surroundings.now(), collection_of(obj), defaultdict(list)
-    for key, item in new:
-        heirs[key].append(item)
-    for key, item in gone:
+def hand_on(obj: bpy.types.Object, gone: list[tuple[str, bpy.types.Object]],
+            new: list[tuple[str, bpy.types.Object]]) -> None:
+    """As made_objects.hand_on; what was made anew goes to the collections to which the user moved what was there."""
+    made_objects.hand_on(gone, new)
+    around, own = Surroundings.now(), collection_of(obj)
+    # What takes the places of several goes where the first of them is.
+    first = {heir: item for item, heir in reversed(made_objects.heirs(gone, new))}
+    for heir, item in first.items():
         where = [place for place in around.collections[item] if place not in around.physics]
-        for heir in heirs[key][:1]:
-            if own is not None and where and own not in where and all(place.is_editable for place in where):
-                for place in where:
-                    place.objects.link(heir)
-                own.objects.unlink(heir)
-        if len(heirs[key]) > 1:
-            del heirs[key][0]
+        if own is not None and where and own not in where and all(place.is_editable for place in where):
+            for place in where:
+                place.objects.link(heir)
+            own.objects.unlink(heir)
 
 
 def include(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> None:

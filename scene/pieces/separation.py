@@ -202,9 +202,7 @@ def _finishing(run: _Run, pieces: list[bpy.types.Object], loose: list[bpy.types.
     """Remember what the new objects are like, have them take the places of earlier ones, and check closed pieces."""
     new = [*pieces, *loose]
     yield from stretched(made_objects.marking(new), 0.0, 0.5)
-    standing = [(stands_for(item), item) for item in new]
-    made_objects.hand_on(earlier.gone, standing)
-    origins.follow(run.obj, earlier.gone, standing)
+    origins.hand_on(run.obj, earlier.gone, [(stands_for(item), item) for item in new])
     for index, piece in enumerate(pieces if closes_holes(run.style) else ()):
         yield 0.5 + 0.5 * index / len(pieces)
         check_pieces([piece], run.stretch)

@@ -358,6 +358,18 @@ def test_pieces_know_their_original_wherever_they_are(obj, make, tree, way):
     assert not other.hide_render or other.hide_get()
 
 
+def test_fewer_hulls_lie_where_more_were_moved(obj):
+    """One takes the places of several: it was to be put there once for each, which Blender refuses."""
+    bpy.ops.reeb_parts.decompose(n_parts=2, graph=False)
+    bpy.ops.reeb_parts.hulls(count=4)
+    hulls = [item for item in obj.reeb_parts_made.pieces.objects if "reeb_parts_hull_of" in item]
+    assert len(hulls) > 2
+    moved_to("Mine", hulls)
+    activate(obj)
+    bpy.ops.reeb_parts.hulls(count=1)
+    assert len(bpy.data.collections["Mine"].objects) == len(bpy.data.objects) - 1 == 2
+
+
 def test_pieces_in_a_collection_of_the_users_that_is_excluded_are_shown(obj):
     """The original was hidden for pieces that nobody saw."""
     bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
