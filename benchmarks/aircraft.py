@@ -25,6 +25,8 @@ from meshes import joined_alone, some, source_and_target, stacked, write_labelle
 from scipy.sparse.csgraph import connected_components
 from tqdm import tqdm
 
+from core.mesh.triangles import TriMesh
+
 #: What the name of an object, in English, French or Spanish, says it is: the first that has one of the words.
 WORDS = {name: re.compile(words, re.IGNORECASE) for name, words in {
     "none": "blur|prop.?dis|disque|disk|flame|cone.?tex|light|lamp|shadow|beacon|strobe|glow|smoke|burner|wake|rope|"
@@ -70,7 +72,7 @@ def _pieces(blocks: Iterator[str], place: np.ndarray, above: str, count: int) ->
     """So many objects and those below them; above : what the object is that they belong to."""
     for _, block in zip(range(count), blocks, strict=False):  # some files end before all are there
         kind, here = kind_of(_words(block, "name")) or above, place @ _placement(block)
-        vertices = _rows(block, r"^numvert \d+\n((?:[-+.\d].*\n)*)")[:, :3]
+        vertices = _vertices(block)
         if faces := list(_triangles(block)):
             yield Piece(kind, vertices @ here[:3, :3].T + here[:3, 3], np.array(faces))
         yield from _pieces(blocks, here, kind, int(_words(block, "kids") or 0))
@@ -92,10 +94,10 @@ def _placement(block: str) -> np.ndarray:
     return place
 
 
-def _rows(block: str, pattern: str) -> np.ndarray:
-    """The numbers of the lines that a pattern finds, one row for each."""
-    found = re.search(pattern, block, re.MULTILINE)
-    return np.array([line.split() for line in found[1].splitlines()], float) if found and found[1] else np.empty((0, 3))
+def _vertices(block: str) -> np.ndarray:
+    """(n, 3), of an object in its own frame; normals may stand behind them."""
+    found = re.search(r"^numvert \d+\n((?:[-+.\d].*\n)*)", block, re.MULTILINE)
+    return np.array([line.split()[:3] for line in found[1].splitlines()] if found else [], float).reshape(-1, 3)
 
 
 def _triangles(block: str) -> Iterator[tuple[int, int, int]]:
@@ -123,7 +125,7 @@ def labelled(pieces: list[Piece]) -> dict[str, np.ndarray]:
     diagonal = np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0))
     vertices, faces, whole = joined_alone(vertices, faces, SAME * diagonal)
     corners, kind = vertices[faces], np.array([p.kind for p in pieces])[piece[whole]]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = TriMesh(vertices, faces).face_area
     share = {name: area[kind == name].sum() / area.sum() for name in ("", "fuselage", "wing")}
     named = 1 - share[""] >= LEAST_NAMED and share["fuselage"] >= LEAST_FUSELAGE and share["wing"] >= LEAST_WING
     if not (named and LEAST_FACES <= len(faces) <= MOST_FACES):

@@ -153,8 +153,8 @@ def _name(material: bpy.types.Material, name: str) -> None:
 def _color_material(material: bpy.types.Material, color: np.ndarray) -> None:
     """Give a material a color; what has it already is left alone, as Blender takes a millisecond for each change."""
     nodes = [node.inputs["Base Color"] for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"]
-    wanted = np.array((*color, 1.0), np.float32).tolist()
+    wanted = tuple(np.array((*color, 1.0), np.float32).tolist())
     for block, name in ((material, "diffuse_color"), *((node, "default_value") for node in nodes)):
-        if getattr(block, name)[:] != tuple(wanted):
+        if getattr(block, name)[:] != wanted:
             transaction.keep(block, name)
             setattr(block, name, wanted)

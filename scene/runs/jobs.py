@@ -187,9 +187,10 @@ class Job:
                  "and report it if that happens again.").format(name=name, reason=reason or self._worker.reason()))
 
     def _finish(self) -> None:
-        computed = {compute.key_of(self._shapes[index][1], self._parameters) for index in self._missing}
-        keys = [(name, shape, compute.key_of(shape, self._parameters)) for name, shape in self._shapes]
-        self.result = [Outcome.of(name, shape, self._found[key], key not in computed) for name, shape, key in keys]
+        keys = [compute.key_of(shape, self._parameters) for _, shape in self._shapes]
+        computed = {keys[index] for index in self._missing}
+        self.result = [Outcome.of(name, shape, self._found[key], key not in computed)
+                       for (name, shape), key in zip(self._shapes, keys, strict=True)]
 
     def _close(self) -> None:
         """End the process and remove what it has worked with."""
