@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import stat
 import sys
+from fnmatch import fnmatchcase
 from itertools import takewhile
 from pathlib import Path
 
@@ -13,6 +14,8 @@ import bpy
 
 from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
+from ..scene.ours.made_objects import ROLE
+from ..scene.pieces import origins
 from ..scene.saving.run_files import reason
 from .importers import IMPORTERS, WITHOUT_UNIT, import_model
 from .messages import problem
@@ -29,11 +32,44 @@ def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
     """
     meshes, problems, sources = _open(options.models, options.unit)
     if not options.object:
-        return meshes or ([] if problems else [bpy.context.view_layer.objects.active]), problems, sources
-    names = list(dict.fromkeys(options.object))
-    problems += [problem(name, SceneError(f"There is no object {name} in the scene."))
-                 for name in names if name not in bpy.data.objects]
-    return [bpy.data.objects[name] for name in names if name in bpy.data.objects], problems, sources
+        return meshes or ([] if problems else [_active()]), problems, sources
+    found: dict = {}  # a set in the order in which they are named
+    for name in options.object:
+        try:
+            found |= dict.fromkeys(_named(name))
+        except SceneError as error:
+            problems.append(problem(name, error))
+    return list(found), problems, sources
+
+
+def _active() -> bpy.types.Object:
+    """The active object. Raises SceneError if there is none or it is no mesh; a missing one says more itself."""
+    active = bpy.context.view_layer.objects.active
+    if active is None or (active.type != "MESH" and not active.is_missing):
+        why = "The scene has no active object" if active is None else f"{active.name}, the active object, is no mesh"
+        raise SceneError(f'{why}: name a mesh with --object NAME, or all meshes with --object "*".')
+    return active
+
+
+def _named(name: str) -> list[bpy.types.Object]:
+    """The object of that name, or the meshes of the file's scenes whose names are like it. Raises SceneError if none.
+
+    What was made of parts, such as pieces and hulls, has to be named itself: it is not decomposed with the rest.
+    """
+    if name in bpy.data.objects:
+        return [bpy.data.objects[name]]
+    if not any(sign in name for sign in "*?["):
+        raise SceneError(f"There is no object {name} in the scene.")
+    found = [obj for obj in bpy.data.objects
+             if obj.type == "MESH" and fnmatchcase(obj.name, name) and obj.users_scene and not _is_made(obj)]
+    if not found:
+        raise SceneError(f"There is no mesh with a name like {name} in the scene.")
+    return found
+
+
+def _is_made(obj: bpy.types.Object) -> bool:
+    """Whether an object was made of the parts of another."""
+    return any(key in obj for key in (ROLE, origins.KEY, origins.NUMBER))
 
 
 def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]:

@@ -26,8 +26,9 @@ def parser(description: str | None) -> argparse.ArgumentParser:
                       help=f"a scene (.blend), or one or several models ({', '.join(IMPORTERS)}); without it, the "
                       "scene that Blender has open")
     made.add_argument("--object", action="append", default=[], metavar="NAME",
-                      help="object to decompose, can be given several times; the active object of a scene "
-                      "and every mesh of a model file without")
+                      help="object to decompose, can be given several times; * ? [abc] stand for any letters, one, and "
+                      "one of these, so that \"*\" is every mesh of a scene; the active object of a scene and every "
+                      "mesh of a model file without")
     made.add_argument("--unit", choices=UNITS, help=f"what a length of 1 in {', '.join(WITHOUT_UNIT)} is (default: m; "
                       "what slicers read is in mm)")
     _add_files(made.add_argument_group("files to write"))

@@ -164,6 +164,28 @@ def test_an_object_that_is_not_there_costs_only_itself(run, two, tmp_path):
     assert [problem["name"] for problem in ended.answer["problems"]] == ["Nobody"]
 
 
+def test_names_of_objects_may_be_patterns(run, obj, make, tree, tmp_path):
+    """All meshes of a scene whose active object is none; what was made of parts is not cut again with the rest."""
+    make(tree, "Other")
+    empty = bpy.data.objects.new("Empty", None)
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.objects.active = empty
+    scene, cut, again = (tmp_path / name for name in ("x.blend", "y.blend", "z.blend"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(scene))
+
+    def decomposed(path, *words):
+        ended = run(path, *words)
+        assert "Traceback" not in ended.err
+        return [entry["name"] for entry in ended.answer["objects"]] if ended.status == 0 else ended.err
+
+    assert "Empty, the active object, is no mesh: name a mesh with --object NAME" in decomposed(scene)
+    assert decomposed(scene, "--object", "[!O]*", "--object", "Tree") == ["Tree"]
+    assert "no mesh with a name like Tr? in the scene" in decomposed(scene, "--object", "Tr?")
+    for path, saved in ((scene, cut), (cut, again)):
+        uses = ("--separate", "--hulls", "unreal", "--save", saved)
+        assert decomposed(path, "--object", "*", *uses) == ["Other", "Tree"]
+
+
 @pytest.mark.parametrize("arguments", [
     ["missing.obj"], ["own.txt"], ["broken.blend"], ["broken.glb"], ["own.obj", "--detail", "7"],
     ["own.obj", "--object", "Nobody"], ["two.obj", "--object", "Triangle"], ["own.obj", "--save", "own.obj"],
