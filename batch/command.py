@@ -22,7 +22,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext, redirect_stdout, suppress
+from contextlib import AbstractContextManager, contextmanager, redirect_stdout, suppress
 from typing import Any, TextIO
 
 import bpy
@@ -30,9 +30,7 @@ import bpy
 from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import chosen_parameters
-from ..core.parameters import Parameters
-from ..core.progress import said_in_steps
-from ..scene import bridge, store, targets
+from ..scene import store, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_objects
 from ..scene.modes import leave_edit_mode
@@ -40,11 +38,11 @@ from ..scene.moving import armature, hulls
 from ..scene.outputs import uv_map
 from ..scene.pieces import piece_objects, separation
 from ..scene.runs import results
-from ..scene.runs.compute import Outcome, compute_all
 from ..scene.saving import export, file_checks
 from ..scene.saving.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
+from .computing import Computations, in_its_scene
 from .interrupt import Interrupted, Interrupts
 from .messages import problem, say
 from .models import find_objects
@@ -90,15 +88,16 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
             objects, problems, sources = find_objects(options)
         files.protect(scene_files())
         reports, done = [], []
+        computations = Computations(objects, parameters, options.hints.upper())
         with _in_a_window():
             with interrupts.allowed():
                 for obj in objects:
                     # What is written to a mesh is written to all objects that share it.
                     twin = next((other for other in done if obj is not None and other.data == obj.data), None)
                     try:
-                        with _in_its_scene(obj):
+                        with in_its_scene(obj):
                             leave_edit_mode(bpy.context)
-                            report = decompose_object(obj, parameters, options, twin)
+                            report = decompose_object(obj, computations, options, twin)
                         reports.append(report | sources.get(obj, {}))
                         done.append(obj)
                     except (SceneError, ReebError, MemoryError) as error:
@@ -116,18 +115,6 @@ def _in_a_window() -> AbstractContextManager:
     """
     window = bpy.context.window or next(iter(bpy.context.window_manager.windows), None)
     return bpy.context.temp_override(window=window)
-
-
-def _in_its_scene(obj: bpy.types.Object | None) -> AbstractContextManager:
-    """A context with the scene of an object that is not in the one that is open: what is made of it goes there."""
-    scenes = obj.users_scene if obj is not None else ()
-    if not scenes or bpy.context.scene in scenes:
-        return nullcontext()
-    layers = scenes[0].view_layers
-    for layer in layers:
-        layer.update()  # one that nobody has looked at does not know its objects
-    layer = next((layer for layer in layers if obj in layer.objects.values()), layers[0])
-    return bpy.context.temp_override(scene=scenes[0], view_layer=layer)
 
 
 def _claim(options: argparse.Namespace, files: RunFiles) -> None:
@@ -164,7 +151,7 @@ def _as_text(result: dict) -> str:
     return json.dumps(result, indent=2, allow_nan=False) + "\n"
 
 
-def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace,
+def decompose_object(obj: bpy.types.Object | None, computations: Computations, options: argparse.Namespace,
                      twin: bpy.types.Object | None = None) -> dict:
     """Read, compute and write one object, all that is asked for or nothing; its entry in the JSON.
 
@@ -176,7 +163,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
 
     targets.check_object(obj)
     assert obj is not None
-    outcome = None if twin else _computed(obj, parameters, options)
+    outcome = None if twin else computations.outcome(obj)
     with transaction():
         if outcome is not None:
             results.write_result(bpy.context, obj, outcome, options)
@@ -187,16 +174,6 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
         if twin:
             found["notes"].append(f"It shares the mesh of {twin.name}, and so its parts.")
         return found | made
-
-
-def _computed(obj: bpy.types.Object, parameters: Parameters, options: argparse.Namespace) -> Outcome:
-    """The decomposition of one object; nothing is written. Raises what the user should hear."""
-    shape = bridge.read_shape(obj, options.hints.upper())
-    progress = said_in_steps(lambda line: say(f"{obj.name}: {line}"))
-    (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
-    if outcome.decomposition is None:
-        raise SceneError(f"{obj.name}: {outcome.problem}")
-    return outcome
 
 
 def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:

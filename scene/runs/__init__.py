@@ -2,8 +2,9 @@
 """A run: from the shapes of objects to results that are written to them.
 
 - ``compute``: from shapes to decompositions
-- ``jobs``: a computation in a process of its own, watched from Blender's
-- ``processes``: that process
+- ``jobs``: a computation in processes of its own, watched from Blender's
+- ``processes``: such a process
 - ``results``: written to an object, and removed from it
+- ``spreading``: which process computes which shapes
 - ``succession``: a new result for a mesh that had one
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A computation in a process of its own, watched from Blender's.
+"""A computation in processes of its own, watched from Blender's.
 
-Blender stays alive meanwhile, whatever becomes of that process; where there can be none, it computes itself.
+Blender stays alive meanwhile, whatever becomes of these processes; where there can be none, it computes itself.
 """
 
 from __future__ import annotations
@@ -13,15 +13,36 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core import handover
 from ...core.parameters import Parameters
+from ...core.processors import n_processors
 from ..bridge import Shape
 from ..errors import SceneError
 from . import compute
 from .compute import Outcome
 from .processes import Worker
+from .spreading import spread
+
+
+class _Task:
+    """One of the processes of a job.
+
+    Attributes
+    ----------
+    worker : Worker
+    numbers : list of int
+        Which shapes of the job it was given, in order.
+    at : int
+        The shape of the job that it is at.
+    ready, over : bool
+        Whether it has said anything, and whether it has done everything.
+    """
+
+    def __init__(self, worker: Worker, numbers: list[int]) -> None:
+        self.worker, self.numbers, self.at = worker, numbers, numbers[0]
+        self.ready = self.over = False
 
 
 class Job:
-    """The decomposition of some shapes.
+    """The decomposition of some shapes; several small ones are computed side by side.
 
     Parameters
     ----------
@@ -55,11 +76,11 @@ class Job:
         self._shapes, self._parameters = shapes, parameters
         self._found: dict[tuple, Any] = {}  # a Decomposition or an error of core, by compute.key_of
         self._missing: list[int] = []  # shapes that are computed
-        self._worker: Worker | None = None
-        self._ready = False
+        self._far: dict[int, float] = {}  # how far each of them is, 0..1
+        self._tasks: list[_Task] = []
 
     def start(self) -> None:
-        """Start the process, unless all has been computed before."""
+        """Start the processes, unless all has been computed before."""
         for index, (_, shape) in enumerate(self._shapes):
             key = compute.key_of(shape, self._parameters)
             if key not in self._found:
@@ -68,10 +89,22 @@ class Job:
         if not self._missing:
             self._finish()
             return
+        self._far = dict.fromkeys(self._missing, 0.0)
+        groups = spread([len(self._shapes[index][1].vertices) for index in self._missing], n_processors())
         try:
-            self._worker = Worker([self._shapes[index][1] for index in self._missing], self._parameters)
-        except OSError:  # no interpreter, no room for the arrays, no right to start it
+            for group in groups:
+                self._start([self._missing[place] for place in group], len(groups))
+        except BaseException as error:
+            self._close()
+            if not isinstance(error, OSError):  # no interpreter, no room for the arrays, no right to start it
+                raise
             self.in_blender = True
+
+    def _start(self, numbers: list[int], count: int) -> None:
+        """Start one of ``count`` processes, for some of the shapes."""
+        threads = max(n_processors() // count, 1) if count > 1 else 0
+        shapes = [self._shapes[index][1] for index in numbers]
+        self._tasks.append(_Task(Worker(shapes, self._parameters, threads), numbers))
 
     def cancel(self) -> None:
         """End it now."""
@@ -90,8 +123,8 @@ class Job:
 
     @property
     def pid(self) -> int | None:
-        """Number of the process, while there is one."""
-        return None if self._worker is None else self._worker.pid
+        """Number of the process, of the first if there are several, while there is one."""
+        return self._tasks[0].worker.pid if self._tasks else None
 
     def poll(self, show: Callable[[], None] = lambda: None) -> None:
         """See how far it is.
@@ -118,73 +151,75 @@ class Job:
         self.result = compute.compute_all(self._shapes, self._parameters, progress)
 
     def _listen(self) -> None:
-        """Take what the process has said; raises SceneError if it has ended before its time."""
-        assert self._worker is not None
-        ended = self._worker.ended  # asked first: what it says last is not missed
-        for message in self._worker.messages():
-            self._take(message)
-        if self.result is not None or not ended:
+        """Take what the processes have said; raises SceneError if one has ended before its time."""
+        for task in self._tasks:
+            ended = task.worker.ended  # asked first: what it says last is not missed
+            for message in task.worker.messages():
+                self._take(task, message)
+            if task.over or not ended:
+                continue
+            if task.ready or task.worker.lacked_memory():
+                raise self._failure(task)
+            # Python could not be started properly: it cannot load NumPy, say, because the system does not let it.
+            task.worker.pass_on_complaints()
+            self._close()
+            self.in_blender = True
             return
-        if self._ready or self._worker.lacked_memory():
-            raise self._failure()
-        # Python could not be started properly: it cannot load NumPy, say, because the system does not let it.
-        self._worker.pass_on_complaints()
-        self._close()
-        self.in_blender = True
-
-    def _take(self, message: dict[str, Any]) -> None:
-        """Understand one message; see core.worker.run."""
-        self._ready = True
-        if "stage" in message:
-            self._at(message["shape"])
-            share = self._of_all((self._index + message["share"]) / len(self._shapes))
-            self.stage, self.share = message["stage"], max(self.share, share)
-        elif "error" in message or "done" in message:
-            self._at(message["shape"])
-            self._receive(message)
-        elif "failed" in message:
-            raise self._failure(memory=True)
-        elif "end" in message:
+        if all(task.over for task in self._tasks):
             self._finish()
+
+    def _take(self, task: _Task, message: dict[str, Any]) -> None:
+        """Understand one message of a process; see core.worker.run."""
+        task.ready = True
+        if "shape" in message:
+            task.at = task.numbers[message["shape"]]
+        if "stage" in message:
+            self._show(task, message["stage"], message["share"])
+        elif "error" in message or "done" in message:
+            self._receive(task, message)
+        elif "failed" in message:
+            raise self._failure(task, memory=True)
+        elif "end" in message:
+            task.over = True
+
+    def _show(self, task: _Task, stage: str, share: float) -> None:
+        """A process is at a stage of a shape. Of several, what the first does that is not done is what is shown."""
+        self._far[task.at] = share
+        known = len(self._shapes) - len(self._missing)
+        self.share = max(self.share, self._of_all((known + sum(self._far.values())) / len(self._shapes)))
+        if task is next(other for other in self._tasks if not other.over):
+            self.stage, self.of = stage, self._shapes[task.at][0] if len(self._shapes) > 1 else ""
 
     def _of_all(self, share: float) -> float:
         """How far all is, by how far the computation is."""
         return self._begin + share * (1.0 - self._begin)
 
-    def _at(self, number: int) -> None:
-        """The process is at a shape of those that it was given."""
-        self._index = self._missing[number]
-        self.of = self._shapes[self._index][0] if len(self._shapes) > 1 else ""
-
-    _index = 0
-
-    def _receive(self, message: dict[str, Any]) -> None:
+    def _receive(self, task: _Task, message: dict[str, Any]) -> None:
         """Take over what became of a shape."""
-        assert self._worker is not None
-        shape = self._shapes[self._index][1]
+        shape = self._shapes[task.at][1]
         found: Any
         if "error" in message:
             found = handover.error_of(message["error"])
         else:
             try:
-                found = handover.read_result(self._worker.folder, message["shape"])
+                found = handover.read_result(task.worker.folder, message["shape"])
             except OSError as error:
-                raise self._failure(reason=str(error)) from error
+                raise self._failure(task, reason=str(error)) from error
             except MemoryError as error:
-                raise self._failure(memory=True) from error
+                raise self._failure(task, memory=True) from error
             compute.remember(shape, self._parameters, found)
+        self._far[task.at] = 1.0
         self._found[compute.key_of(shape, self._parameters)] = found
 
-    def _failure(self, memory: bool = False, reason: str = "") -> SceneError:
-        """Why the process has ended before its time, as the sentence for the user."""
-        assert self._worker is not None
-        name, shape = self._shapes[self._index if self._ready else self._missing[0]]
-        self._worker.pass_on_complaints()
-        if memory or self._worker.lacked_memory():
+    def _failure(self, task: _Task, memory: bool = False, reason: str = "") -> SceneError:
+        """Why a process has ended before its time, as the sentence for the user."""
+        name, shape = self._shapes[task.at]
+        task.worker.pass_on_complaints()
+        if memory or task.worker.lacked_memory():
             return compute.lacking_memory(name, shape)
         return SceneError(
             rpt_("The process that decomposed {name} ended unexpectedly ({reason}); nothing was changed. Try again, "
-                 "and report it if that happens again.").format(name=name, reason=reason or self._worker.reason()))
+                 "and report it if that happens again.").format(name=name, reason=reason or task.worker.reason()))
 
     def _finish(self) -> None:
         keys = [compute.key_of(shape, self._parameters) for _, shape in self._shapes]
@@ -193,10 +228,9 @@ class Job:
                        for (name, shape), key in zip(self._shapes, keys, strict=True)]
 
     def _close(self) -> None:
-        """End the process and remove what it has worked with."""
-        if self._worker is not None:
-            self._worker.close()
-            self._worker = None
+        """End the processes and remove what they have worked with."""
+        while self._tasks:
+            self._tasks.pop().worker.close()
 
 
 class Progress:

@@ -52,6 +52,8 @@ class Worker:
     ----------
     shapes : list of Shape
     parameters : Parameters
+    threads : int
+        How many its libraries may use, 0 for as many as there are processors.
 
     Attributes
     ----------
@@ -66,7 +68,7 @@ class Worker:
         There is no interpreter, or the folder or the process cannot be made.
     """
 
-    def __init__(self, shapes: list[Shape], parameters: Parameters) -> None:
+    def __init__(self, shapes: list[Shape], parameters: Parameters, threads: int = 0) -> None:
         python = interpreter()
         if python is None:
             raise FileNotFoundError("python")
@@ -74,20 +76,22 @@ class Worker:
         self.folder = Path(tempfile.mkdtemp(prefix="reeb_parts_", dir=bpy.app.tempdir or None))
         try:
             handover.write_request(self.folder, [shape.arrays for shape in shapes], parameters)
-            self._process = self._start(python)
+            self._process = self._start(python, threads)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
         self._messages = open(self.folder / "messages", "rb")  # noqa: SIM115 - read until the process has ended
         self._partial = b""
 
-    def _start(self, python: str) -> subprocess.Popen:
+    def _start(self, python: str, threads: int) -> subprocess.Popen:
         """Start Python, without the user's own packages and settings, and without a window."""
         own = os.path.dirname(load_core().__path__[0])
         options = dict.fromkeys(["-I", "-S", *bpy.app.python_args, *(["-B"] if sys.dont_write_bytecode else [])])
         command = [python, *options, "-c", _START, own, str(self.folder), *_libraries()]
+        around = os.environ | {"OMP_NUM_THREADS": str(threads)} if threads else None
         with open(self.folder / "messages", "wb") as out, open(self.folder / "errors", "wb") as errors:
-            return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=out, stderr=errors, creationflags=_FLAGS)
+            return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=out, stderr=errors, creationflags=_FLAGS,
+                                    env=around)
 
     @property
     def pid(self) -> int:

@@ -45,7 +45,7 @@ def steps():
     pointer.shot("1_computing.png")
     if job() is not None:  # it may be over by then if FLUID_SECONDS says so
         seen["stage"], pid = job().stage, job().pid
-        seen["files"] = sorted(os.listdir(job()._worker.folder))
+        seen["files"] = sorted(os.listdir(job()._tasks[0].worker.folder))
         pointer.xdo("mousemove", *pointer.in_view())
         yield 0.1
         begin = time.monotonic()
@@ -68,7 +68,7 @@ def steps():
     yield from pointer.rest(*pointer.in_view())
     yield from started()
     # Blender quits now.
-    seen["last"] = {"pid": job().pid, "folder": str(job()._worker.folder)}
+    seen["last"] = {"pid": job().pid, "folder": str(job()._tasks[0].worker.folder)}
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 

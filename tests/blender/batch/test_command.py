@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 import process
 import pytest
+import shapes
 from scipy.spatial import cKDTree
 from threemf_reader import read_3mf
 
@@ -162,6 +163,25 @@ def test_an_object_that_is_not_there_costs_only_itself(run, two, tmp_path):
     assert ended.status == 1
     assert [report["name"] for report in ended.answer["objects"]] == ["Tree"]
     assert [problem["name"] for problem in ended.answer["problems"]] == ["Nobody"]
+
+
+def test_small_objects_are_computed_side_by_side(run, make, tree, tmp_path, monkeypatch):
+    """The answer is that of one after the other, whatever cannot be decomposed among them, in the order of names."""
+    triangle = shapes.Shape(np.eye(3), np.array([[0, 1, 2]]))
+    for name, shape in zip("ABCDE", (tree, triangle, shapes.torus(), shapes.two_spheres(), tree), strict=True):
+        make(shape, name)
+    bpy.data.objects["E"].data = bpy.data.objects["A"].data
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
+    ended = run(tmp_path / "x.blend", "--object", "*")
+    assert "4 objects: " in ended.err  # as many as have a mesh of their own
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+    alone = run(tmp_path / "x.blend", "--object", "*")
+    assert "objects: " not in alone.err
+    assert [report["name"] for report in ended.answer["objects"]] == ["A", "C", "D", "E"]
+    for one, other in zip(ended.answer["objects"], alone.answer["objects"], strict=True):
+        assert {**one, "seconds": 0} == {**other, "seconds": 0}
+    assert ended.answer["problems"] == alone.answer["problems"]
+    assert [problem["name"] for problem in ended.answer["problems"]] == ["B"]
 
 
 def test_names_of_objects_may_be_patterns(run, obj, make, tree, tmp_path):

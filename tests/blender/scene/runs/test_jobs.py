@@ -165,7 +165,14 @@ def test_what_was_computed_is_not_computed_again(jobs, compute, read, parameters
     assert both.result[0].seconds == 0.0 < both.result[1].seconds
 
 
-def test_progress(jobs, read, parameters):
+@pytest.fixture
+def processors(jobs, monkeypatch):
+    """A function that says how many processors there are."""
+    return lambda count: monkeypatch.setattr(jobs, "n_processors", lambda: count)
+
+
+def test_progress(jobs, read, parameters, processors):
+    processors(1)
     job = jobs.Job(read(shapes.tube_tree(), shapes.torus()), parameters())
     seen = [step for step in followed(job) if step[1]]
     shares = [share for _, _, share in seen]
@@ -175,6 +182,57 @@ def test_progress(jobs, read, parameters):
         stages = list(dict.fromkeys(stage for of, stage, _ in seen if of == name))
         assert stages == [s for s in ("mesh", "distances", "reeb graph", "cuts", "parts", "done") if s in stages]
         assert len(stages) > 2
+
+
+def test_several_are_computed_side_by_side(jobs, compute, read, parameters, processors):
+    """The shares of all make up how far it is; what the first process does is shown, then what the others do."""
+    processors(3)
+    given = read(shapes.tube_tree(), *broken(), shapes.tube_tree())
+    job = jobs.Job(given, parameters())
+    seen = followed(job)
+    assert [share for _, _, share in seen] == sorted(share for _, _, share in seen)
+    found = {outcome.object_name: outcome for outcome in job.result}
+    assert list(found) == [name for name, _ in given]
+    assert found["Object 7"].decomposition.candidates is found["Object 0"].decomposition.candidates
+    compute.forget()
+    processors(1)
+    alone = jobs.Job(given, parameters())
+    followed(alone)
+    for one, other in zip(job.result, alone.result, strict=True):
+        assert (arrays_of(one.decomposition), str(one.problem)) == (arrays_of(other.decomposition), str(other.problem))
+
+
+@pytest.mark.parametrize("end", ["cancel", "crash", "no process"])
+def test_none_of_several_processes_outlives_a_job(package, jobs, read, parameters, processors, monkeypatch, end):
+    processors(2)
+    given = read(shapes.subdivide(shapes.tube_tree()), shapes.subdivide(shapes.subdivide(shapes.torus())))
+    if end == "no process":
+        one, tried = importlib.import_module(f"{package}.scene.runs.processes").Worker, []
+
+        def second_fails(*args):
+            tried.append(one(*args) if not tried else None)
+            if tried[-1] is None:
+                raise OSError("no more processes")
+            return tried[-1]
+
+        monkeypatch.setattr(jobs, "Worker", second_fails)
+        job = jobs.Job(given, parameters())
+        job.start()
+        assert job.in_blender
+        pids = [tried[0].pid]
+    else:
+        job = started(jobs, given, parameters(base_spacing=0.0005))
+        until(lambda: job.poll() or all(task.ready for task in job._tasks))
+        pids = [task.worker.pid for task in job._tasks]
+        assert len(pids) == 2
+        if end == "cancel":
+            job.cancel()
+        else:
+            os.kill(pids[1], signal.SIGSEGV)
+            until(lambda: job.poll() or not job.running)
+            assert "The process that decomposed Object 1 ended unexpectedly (signal 11)" in str(job.error)
+    assert not any(map(alive, pids))
+    assert folders() == []
 
 
 def test_the_folder_is_private_and_holds_what_is_computed_only(jobs, read, parameters):
@@ -227,7 +285,7 @@ def test_out_of_memory_costs_one_sentence(jobs, read, parameters, capfd):
     large = shapes.subdivide(shapes.subdivide(shapes.subdivide(shapes.tube_tree())))
     job = jobs.Job(read(large), parameters())
     job.start()
-    until(lambda: job.poll() or job._ready)
+    until(lambda: job.poll() or job._tasks[0].ready)
     size = int(Path(f"/proc/{job.pid}/statm").read_text().split()[0]) * resource.getpagesize()
     resource.prlimit(job.pid, resource.RLIMIT_AS, (size + 20_000_000, size + 20_000_000))
     until(lambda: job.poll() or not job.running)
@@ -311,7 +369,7 @@ def test_what_counts_as_an_interpreter(package, other_python, name, known):
 def test_an_error_of_our_own_is_raised_when_all_is_closed(jobs, read, parameters):
     job = started(jobs, read(shapes.subdivide(shapes.tube_tree())), parameters())
     pid = job.pid
-    job._missing.clear()  # so that it does not know what the process speaks of
+    job._tasks[0].numbers.clear()  # so that it does not know what the process speaks of
     until(lambda: job.poll() or not job.running)
     assert isinstance(job.error, IndexError)
     assert not alive(pid)
@@ -362,7 +420,7 @@ jobs.current.start()
 while jobs.current.stage != "distances":
     jobs.current.poll()
     time.sleep(0.01)
-pathlib.Path({scratch!r}, "pid").write_text(f"{{jobs.current.pid}} {{jobs.current._worker.folder}}")
+pathlib.Path({scratch!r}, "pid").write_text(f"{{jobs.current.pid}} {{jobs.current._tasks[0].worker.folder}}")
 while {wait}:
     time.sleep(1)
 checkout.leave(0)
