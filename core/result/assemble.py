@@ -106,13 +106,13 @@ def _face_candidates(
 def _symmetric(candidates: FaceCandidates, mirror: Mirror) -> FaceCandidates:
     """The candidates and their hierarchy made symmetric in a plane, and in all that were found with it."""
     if candidates.graph.n_faces > MANY_FACES and not mirror.exact:
-        return symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first)
+        return symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first, mirror.sure)
     if mirror.group is not None:
         return turned_candidates(candidates, mirror.group, mirror.beside)
     planes = (mirror, *mirror.across)
     return symmetric_candidates(
         candidates, np.array([plane.twin for plane in planes]), np.array([plane.height for plane in planes]),
-        np.array([plane.first for plane in planes]), mirror.exact)
+        np.array([plane.first for plane in planes]), mirror.sure)
 
 
 @dataclass(frozen=True, eq=False)

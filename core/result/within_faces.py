@@ -64,7 +64,7 @@ def _symmetric(results: list[ComponentResult], planes: list[Images]) -> FaceCand
     for images in planes:  # of planes across each other each keeps the symmetry in those before it
         mirror = Mirror.of_faces(images, mesh)
         candidates = replace(candidates, hierarchy=merged_at_last(candidates.hierarchy))
-        candidates = symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first, mirror.exact)
+        candidates = symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first, mirror.sure)
     return candidates
 
 

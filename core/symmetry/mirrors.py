@@ -12,10 +12,11 @@ from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_e
 from .group import SymmetryGroup
 from .images import Images
 from .plane import MirrorPlane
-from .search import EXACT, LEAST, mirror_plane
+from .search import LEAST, mirror_plane
 from .small_faces import SmallFaces
 from .topology import TopologyMirror, topology_mirror
 
+SURE = 0.95  # share of the area that a plane must mirror for nothing that was found to speak against it
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
 LARGEST_GROUP = 64  # upper bound of the number of symmetries of a shape
 # Share of the area with both kinds of twins for which these must be the same: else a plane mirrors a shape one way, and
@@ -40,7 +41,6 @@ class Mirror:
         1.0 or -1.0, the side of the first face beside the plane: it leads where both sides are equally good.
     exact : bool
         Whether all faces are exact mirror images of others, or of themselves; or whether twins hang together alike.
-        Then nothing that was found speaks against them.
     across : tuple of Mirror
         Of an exact one: others across it and each other that are exact, too.
     within : tuple of Images
@@ -51,6 +51,8 @@ class Mirror:
         the group that all of them generate.
     beside : (p,) float64
         Signed distance of each face from a plane that is none of the group's; empty without a group.
+    share : float
+        Share of the area that the plane mirrors, 0..1.
     """
 
     plane: np.ndarray
@@ -62,6 +64,12 @@ class Mirror:
     within: tuple[Images, ...] = ()
     group: SymmetryGroup | None = None
     beside: np.ndarray = field(default_factory=lambda: np.empty(0))
+    share: float = 0.0
+
+    @property
+    def sure(self) -> bool:
+        """Whether nothing that was found on one side speaks against it."""
+        return self.exact or self.share >= SURE
 
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
@@ -116,8 +124,7 @@ class Mirror:
         """A plane that is known, and what it does to the small faces of a mesh."""
         if images.faces.mesh is not mesh:
             images = Images(SmallFaces.of(mesh), images.plane)
-        mirror = cls._in(images.plane, images.small, mesh, np.arange(mesh.n_faces))
-        return replace(mirror, exact=images.plane.share >= 1 - EXACT)
+        return cls._in(images.plane, images.small, mesh, np.arange(mesh.n_faces))
 
     @classmethod
     def _in(cls, plane: MirrorPlane, twin: np.ndarray, mesh: TriMesh, polygon: np.ndarray) -> Mirror:
@@ -128,7 +135,8 @@ class Mirror:
         height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)
         height[twin == np.arange(n_polygons)] = 0.0
         clear = np.abs(beside) >= 0.5 * np.abs(beside).max()
-        return cls(np.append(plane.normal, plane.offset), twin, height, float(np.sign(beside[clear.argmax()])))
+        first = float(np.sign(beside[clear.argmax()]))
+        return cls(np.append(plane.normal, plane.offset), twin, height, first, share=plane.share)
 
     @classmethod
     def joined(cls, mirrors: list[Mirror]) -> Mirror:

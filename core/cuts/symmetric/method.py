@@ -37,7 +37,7 @@ MOST_CANDIDATES = 2_000  # every pair of them is compared; of more, such as the 
 
 def symmetric_candidates(
     candidates: FaceCandidates, twin: np.ndarray, height: np.ndarray, first: float | np.ndarray = 1.0,
-    exact: bool = False,
+    sure: bool = False,
 ) -> FaceCandidates:
     """Make candidates and their hierarchy symmetric.
 
@@ -52,8 +52,8 @@ def symmetric_candidates(
         Signed distance of each face from each plane.
     first : float or (k,) float64
         Above 0 if the side to which the normal points is to lead where both are equally good, below 0 for the other.
-    exact : bool
-        Whether all twins are exact: then nothing that was found on a side speaks against a plane.
+    sure : bool
+        Whether the planes are beyond doubt: then nothing that was found on a side speaks against them.
 
     Returns
     -------
@@ -72,9 +72,9 @@ def symmetric_candidates(
     twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
     group, beside = SymmetryGroup.of_planes(twin), height * first[:, None]
     wedges = [(beside * np.reshape(signs, (-1, 1)) >= 0).all(axis=0) for signs in product((1, -1), repeat=len(beside))]
-    best = _best(candidates, group, wedges, np.inf if exact else WORST)
+    best = _best(candidates, group, wedges, np.inf if sure else WORST)
     if best is None and len(twin) > 1:
-        return symmetric_candidates(candidates, twin[:-1], height[:-1], first[:-1], exact)
+        return symmetric_candidates(candidates, twin[:-1], height[:-1], first[:-1], sure)
     return best or candidates
 
 

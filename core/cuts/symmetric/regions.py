@@ -15,7 +15,7 @@ MANY_FACES = 20_000  # number of faces from which on regions are faster, and sli
 
 
 def symmetric_on_regions(
-    candidates: FaceCandidates, twin: np.ndarray, height: np.ndarray, first: float, exact: bool = False
+    candidates: FaceCandidates, twin: np.ndarray, height: np.ndarray, first: float, sure: bool = False
 ) -> FaceCandidates:
     """What ``symmetric_candidates`` makes of one plane, but for slivers beside the cuts.
 
@@ -31,7 +31,7 @@ def symmetric_on_regions(
     height : (p,) float64
         Signed distance of each face from the plane.
     first : float
-    exact : bool
+    sure : bool
 
     Returns
     -------
@@ -51,7 +51,7 @@ def symmetric_on_regions(
                              touching[touching[:, 0] != touching[:, 1]], label[of_region], candidates.hierarchy)
     image_of_region = majority(
         region[has], region[twin[has]], graph.weight[has], count)
-    made = symmetric_candidates(regions, image_of_region, height[of_region], first, exact)
+    made = symmetric_candidates(regions, image_of_region, height[of_region], first, sure)
     if made is regions:
         return candidates
     return replace(candidates, label=made.label[region], hierarchy=made.hierarchy)

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts of posed figures are symmetric, though no plane mirrors these."""
+"""Parts of posed figures are symmetric, though no plane mirrors these; and which planes are beyond doubt."""
 
 import numpy as np
 import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.mesh.triangles import TriMesh
 from core.parameters import METHODS
 from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering
+from core.symmetry.mirrors import Mirror
 
 
 @pytest.fixture(scope="module")
@@ -52,3 +54,15 @@ def test_the_symmetry_of_a_pose_is_stored(posed):
 
 def test_without_symmetry_nothing_has_a_twin(posed):
     assert len(decompose(*posed, parameters=Parameters(symmetry=False)).face_twin) == 0
+
+
+@pytest.mark.parametrize(("lump", "least", "most"), [(0.0, 1.0, 1.0), (0.34, 0.95, 0.99), (0.4, 0.85, 0.95)])
+def test_nothing_found_speaks_against_a_plane_that_mirrors_nearly_all(lump, least, most):
+    """A figure with a lump on one hand: none of its faces has an exact image any more, but most have one."""
+    vertices, faces = shapes.mirrored_figure()
+    beside = vertices - vertices[vertices[:, 0].argmax()]
+    swollen = vertices + lump * beside * np.exp(-(beside**2).sum(axis=1, keepdims=True) / (4 * lump**2 + 1e-9))
+    uneven = (lump > 0) * 1e-3 * np.sin(50 * vertices)
+    mirror = Mirror.of(TriMesh(swollen + uneven, faces), np.arange(len(faces)), len(faces))
+    assert least <= round(mirror.share, 6) <= most
+    assert (mirror.exact, mirror.sure) == (lump == 0, least >= 0.95)

@@ -158,7 +158,7 @@ def test_one_corner_leads_all_four():
     candidates = of_faces(FaceGraph(n * n, pairs, np.ones(len(pairs)), np.ones(n * n)), label.ravel(),
                           Hierarchy.of(3, [(0, 2), (0, 1)], [0.4, 0.8]))
     result = symmetric_candidates(
-        candidates, np.stack([face[::-1].ravel(), face[:, ::-1].ravel()]), np.stack([x, y]), np.ones(2), exact=True)
+        candidates, np.stack([face[::-1].ravel(), face[:, ::-1].ravel()]), np.stack([x, y]), np.ones(2), sure=True)
     corners = np.where((abs(x) > 1) & (abs(y) > 1), 2 * (x > 0) + (y > 0) + 1, 0)
     # The second corner leads: with all four cut off where it is, most pairs of points stay as they were found. Corners
     # and middle are parted by 0.4, corners beside each other by 0.6 (0.8 and 0.4) or 0.4 (0.8 and 0), those across by
