@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import time
 from contextlib import AbstractContextManager, nullcontext
 
 import bpy
@@ -16,13 +15,10 @@ from ..scene import bridge, targets
 from ..scene.bridge import Shape
 from ..scene.errors import SceneError
 from ..scene.modes import leave_edit_mode
-from ..scene.runs.compute import Outcome, compute_all
-from ..scene.runs.jobs import Job
+from ..scene.runs.compute import Outcome
+from ..scene.runs.jobs import computed
 from ..scene.runs.spreading import MOST_AT_A_TIME
 from .messages import say
-
-# Seconds between two looks at the processes.
-INTERVAL = 0.02
 
 
 class Computations:
@@ -64,7 +60,7 @@ class Computations:
         return group if obj in group else []
 
     def _side_by_side(self, group: list[bpy.types.Object]) -> dict[bpy.types.Object, Outcome]:
-        """What becomes of several objects in processes of their own; of those that are left out, nothing is known.
+        """What becomes of several objects; of those that are left out, nothing is known.
 
         Whatever goes wrong with one is said when its turn comes: it is then computed alone.
         """
@@ -76,23 +72,18 @@ class Computations:
                 read[obj] = self._read(obj)
             except (SceneError, ReebError, MemoryError):
                 continue
-        job = Job([(obj.name, shape) for obj, shape in read.items()], self._parameters)
         tell = said_in_steps(say)
         try:
-            job.start()
-            while job.running:
-                job.poll()
-                tell(f"{len(read)} objects:", job.share)
-                time.sleep(INTERVAL)
-        finally:
-            job.cancel()
-        return dict(zip(read, job.result, strict=True)) if job.result is not None else {}
+            outcomes = computed([(obj.name, shape) for obj, shape in read.items()], self._parameters,
+                                lambda stage, share: tell(f"{len(read)} objects:", share))
+        except SceneError:
+            return {}
+        return dict(zip(read, outcomes, strict=True))
 
     def _alone(self, obj: bpy.types.Object) -> Outcome:
         """What becomes of one object in this process."""
-        shape = self._read(obj)
         progress = said_in_steps(lambda line: say(f"{obj.name}: {line}"))
-        return compute_all([(obj.name, shape)], self._parameters, progress)[0]
+        return computed([(obj.name, self._read(obj))], self._parameters, progress)[0]
 
     def _read(self, obj: bpy.types.Object) -> Shape:
         with in_its_scene(obj):

@@ -14,7 +14,7 @@ from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
 from ..scene.runs import jobs, results
-from ..scene.runs.compute import Outcome, compute_all
+from ..scene.runs.compute import Outcome
 from ..scene.runs.results import check_unchanged, writing_result
 from ..scene.settings import (
     HINTS,
@@ -74,7 +74,7 @@ class REEB_PARTS_OT_decompose(
         self._complete_detail(context)
         defaults.complete(self)
         parameters, shapes = finished(self._reading(context))
-        finished(self._writing(context, compute_all(shapes, parameters, lambda stage, share, of="": None)))
+        finished(self._writing(context, jobs.computed(shapes, parameters)))
 
     def _complete_detail(self, context: bpy.types.Context) -> None:
         """Take over former names, and how many parts are shown where a caller gives neither detail nor number."""

@@ -6,6 +6,7 @@ Blender stays alive meanwhile, whatever becomes of these processes; where there 
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -20,6 +21,8 @@ from . import compute
 from .compute import Outcome
 from .processes import Worker
 from .spreading import spread
+
+INTERVAL = 0.02  # seconds between two looks at the processes where nothing is drawn meanwhile
 
 
 class _Task:
@@ -231,6 +234,38 @@ class Job:
         """End the processes and remove what they have worked with."""
         while self._tasks:
             self._tasks.pop().worker.close()
+
+
+def computed(shapes: list[tuple[str, Shape]], parameters: Parameters,
+             progress: Callable[[str, float], None] = lambda stage, share: None) -> list[Outcome]:
+    """Decompose shapes while the caller waits, several of them side by side.
+
+    Parameters
+    ----------
+    shapes : list of (object name, Shape)
+    parameters : Parameters
+    progress : callable(stage, share)
+        What it raises ends everything.
+
+    Raises
+    ------
+    SceneError
+        There is not enough memory.
+    """
+    if len(shapes) > 1 and n_processors() > 1:
+        job = Job(shapes, parameters)
+        try:
+            job.start()
+            while job.running:
+                job.poll(lambda: progress(job.stage, job.share))
+                progress(job.stage, job.share)
+                time.sleep(INTERVAL)
+        finally:
+            job.cancel()
+        if job.result is not None:
+            return job.result
+    # Alone, or after something went wrong with a process: whatever is computed here needs memory for one at a time.
+    return compute.compute_all(shapes, parameters, lambda stage, share, of="": progress(stage, share))
 
 
 class Progress:

@@ -165,16 +165,18 @@ def test_an_object_that_is_not_there_costs_only_itself(run, two, tmp_path):
     assert [problem["name"] for problem in ended.answer["problems"]] == ["Nobody"]
 
 
-def test_small_objects_are_computed_side_by_side(run, make, tree, tmp_path, monkeypatch):
+def test_small_objects_are_computed_side_by_side(package, run, make, tree, tmp_path, monkeypatch):
     """The answer is that of one after the other, whatever cannot be decomposed among them, in the order of names."""
     triangle = shapes.Shape(np.eye(3), np.array([[0, 1, 2]]))
     for name, shape in zip("ABCDE", (tree, triangle, shapes.torus(), shapes.two_spheres(), tree), strict=True):
         make(shape, name)
     bpy.data.objects["E"].data = bpy.data.objects["A"].data
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
+    computing = import_module(f"{package}.batch.computing")
+    monkeypatch.setattr(computing, "n_processors", lambda: 2)
     ended = run(tmp_path / "x.blend", "--object", "*")
     assert "4 objects: " in ended.err  # as many as have a mesh of their own
-    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+    monkeypatch.setattr(computing, "n_processors", lambda: 1)
     alone = run(tmp_path / "x.blend", "--object", "*")
     assert "objects: " not in alone.err
     assert [report["name"] for report in ended.answer["objects"]] == ["A", "C", "D", "E"]
@@ -244,13 +246,17 @@ def test_a_picture_has_a_size_in_its_range(run, model, tmp_path, size):
 
 
 @pytest.mark.parametrize(("moment", "number"), [
-    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT), ("cuts", signal.SIGHUP)])
+    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT), ("cuts", signal.SIGHUP),
+    *[("2 objects", signal.SIGINT)] * (len(os.sched_getaffinity(0)) > 1)])
 def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, moment, number):
     said = tmp_path_factory.mktemp("said")  # files, not pipes: nobody reads while the process writes
+    models = [model]
+    if moment == "2 objects":
+        models.append(process.write_obj(tmp_path / "other.obj", shapes.two_spheres()))
     before = process.content(tmp_path)
     (tmp_path / "out.json").write_text("an answer of yesterday")
     (tmp_path / "parts").mkdir()
-    arguments = (model, "--json", tmp_path / "out.json", "--save", tmp_path / "out.blend",
+    arguments = (*models, "--json", tmp_path / "out.json", "--save", tmp_path / "out.blend",
                  "--parts", tmp_path / "parts", "--parts-format", "stl", "--picture", tmp_path / "out.png")
     files = len(list(tmp_path.rglob("*")))
     with (open(said / "out", "w") as out, open(said / "err", "w") as err,

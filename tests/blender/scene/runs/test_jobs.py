@@ -235,6 +235,38 @@ def test_none_of_several_processes_outlives_a_job(package, jobs, read, parameter
     assert folders() == []
 
 
+@pytest.mark.parametrize("goes_wrong", ["nothing", "a process", "the caller"])
+def test_who_waits_gets_all_or_what_was_raised(
+        package, jobs, compute, read, parameters, processors, monkeypatch, goes_wrong):
+    """A process that is killed costs time: all is computed here then."""
+    processors(2)
+    given = read(shapes.tube_tree(), shapes.two_spheres())
+    expected = compute.compute_all(given, parameters(), lambda *_: None)
+    compute.forget()
+
+    class Killed(importlib.import_module(f"{package}.scene.runs.processes").Worker):
+        def __init__(self, *given):
+            super().__init__(*given)
+            os.kill(self.pid, signal.SIGKILL)
+
+    said = []
+
+    def progress(stage, share):
+        said.append(share)
+        if goes_wrong == "the caller" and stage == "cuts":
+            raise KeyboardInterrupt
+
+    if goes_wrong == "a process":
+        monkeypatch.setattr(jobs, "Worker", Killed)
+    if goes_wrong == "the caller":
+        with pytest.raises(KeyboardInterrupt):
+            jobs.computed(given, parameters(), progress)
+        return
+    found = jobs.computed(given, parameters(), progress)
+    assert [arrays_of(o.decomposition) for o in found] == [arrays_of(o.decomposition) for o in expected]
+    assert max(said) == 1.0
+
+
 def test_the_folder_is_private_and_holds_what_is_computed_only(jobs, read, parameters):
     job = started(jobs, read(shapes.subdivide(shapes.tube_tree())), parameters())
     (folder,) = folders()
