@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -25,6 +26,7 @@ from .spreading import spread
 INTERVAL = 0.02  # seconds between two looks at the processes where nothing is drawn meanwhile
 
 
+@dataclass(eq=False)
 class _Task:
     """One of the processes of a job.
 
@@ -39,9 +41,11 @@ class _Task:
         Whether it has said anything, and whether it has done everything.
     """
 
-    def __init__(self, worker: Worker, numbers: list[int]) -> None:
-        self.worker, self.numbers, self.at = worker, numbers, numbers[0]
-        self.ready = self.over = False
+    worker: Worker
+    numbers: list[int]
+    at: int
+    ready: bool = False
+    over: bool = False
 
 
 class Job:
@@ -107,7 +111,7 @@ class Job:
         """Start one of ``count`` processes, for some of the shapes."""
         threads = max(n_processors() // count, 1) if count > 1 else 0
         shapes = [self._shapes[index][1] for index in numbers]
-        self._tasks.append(_Task(Worker(shapes, self._parameters, threads), numbers))
+        self._tasks.append(_Task(Worker(shapes, self._parameters, threads), numbers, numbers[0]))
 
     def cancel(self) -> None:
         """End it now."""
