@@ -40,6 +40,7 @@ def steps():
     seen["redone"] = scene_facts()
     yield 0.5
     pointer.shot("4_redone.png")
+    yield from repeat_hulls(seen)
     yield from adjust_separate(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
@@ -76,6 +77,27 @@ def press_decompose(seen):
         raise TimeoutError("no parts after a click on Decompose, see failed.png")
     yield from pointer.rest(*pointer.in_view(0.4))
     yield 1.0
+
+
+def repeat_hulls(seen):
+    """Make hulls of the scaled model, and make them again as the panel of what was done last does; undo all of it."""
+    model().scale = (2.0, 1.0, 0.5)
+    bpy.ops.ed.undo_push(message="Scale")
+    bpy.ops.reeb_parts.hulls("EXEC_DEFAULT", True)
+    seen["hulls"] = hulls()
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
+    yield 0.3
+    seen["hulls again"] = hulls()
+    for _ in range(2):
+        bpy.ops.ed.undo()
+    yield 0.3
+
+
+def hulls():
+    """The box of each hull, and its scale."""
+    return {obj.name: [[round(x, 5) for x in (*obj.dimensions, *obj.scale)]] for obj in bpy.data.objects
+            if obj.name.startswith("UCX_")}
 
 
 def adjust_separate(seen):

@@ -45,6 +45,11 @@ def test_separate_can_be_adjusted_once_a_piece_is_active(seen):
     assert seen["adjusted"] == dict.fromkeys(seen["separated"], True)
 
 
+def test_what_is_adjusted_is_as_if_it_were_done_once(seen):
+    assert seen["hulls"]
+    assert seen["hulls again"] == seen["hulls"]
+
+
 def test_pictures_are_left(seen):
     assert [path.name for path in sorted(OUT.glob("*.png"))] == [
         "1_tab.png", "2_decomposed.png", "3_undone.png", "4_redone.png", "5_adjusted.png",
