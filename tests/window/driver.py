@@ -41,6 +41,7 @@ def steps():
     yield 0.5
     pointer.shot("4_redone.png")
     yield from repeat_hulls(seen)
+    yield from rename_in_edit_mode(seen)
     yield from adjust_separate(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
@@ -91,6 +92,26 @@ def repeat_hulls(seen):
     seen["hulls again"] = hulls()
     for _ in range(2):
         bpy.ops.ed.undo()
+    yield 0.3
+
+
+def rename_in_edit_mode(seen):
+    """Choose a part in Edit Mode, rename it, and change the name as the panel of what was done last does; undo that."""
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.object.mode_set("INVOKE_DEFAULT", True, mode="EDIT")
+        result = model().data.reeb_parts
+        result.active = 2
+        result.parts[1].selected = True
+        bpy.ops.ed.undo_push(message="Click")  # as Blender does after one in the list
+        bpy.ops.reeb_parts.rename("EXEC_DEFAULT", True, new_name="One")
+        bpy.context.window_manager.operators[-1].properties.new_name = "Two"
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
+        seen["names"] = [part.name for part in model().data.reeb_parts.parts]
+        bpy.ops.ed.undo()
+        result = model().data.reeb_parts
+        seen["chosen"] = [result.active, [part.selected for part in result.parts][:3]]
+        for _ in range(2):
+            bpy.ops.ed.undo()
     yield 0.3
 
 
