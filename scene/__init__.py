@@ -42,7 +42,7 @@ What every operator needs:
 from __future__ import annotations
 
 from . import defaults, store
-from .changes import sculpt_undo, watch
+from .changes import undo_steps, watch
 from .outputs import vertex_groups
 from .reading import fingerprints, mesh_arrays
 from .result import part_places, schema
@@ -53,11 +53,11 @@ def register() -> None:
     schema.register()
     defaults.register()
     watch.register()
-    sculpt_undo.register()
+    undo_steps.register()
 
 
 def unregister() -> None:
-    sculpt_undo.unregister()
+    undo_steps.unregister()
     watch.unregister()
     defaults.unregister()
     schema.unregister()

@@ -56,6 +56,7 @@ def set_mode(obj: bpy.types.Object, mode: str) -> None:
 def call_with(operator: Callable[..., set[str]], obj: bpy.types.Object, **arguments: str | float) -> set[str]:
     """Call one of Blender's operators with an object as the active one, whatever the window shows; its result."""
     edited = {"edit_object": obj} if obj.mode == "EDIT" else {}
-    # On one line, so that nothing can be raised before the override ends: Blender would keep it for ever.
-    with bpy.context.temp_override(active_object=obj, object=obj, **edited): done = operator(**arguments)  # noqa: E701
+    # In no area, since some of them refuse in an editor that shows other things. On one line, so that nothing can be
+    # raised before the override ends: Blender would keep it for ever.
+    with bpy.context.temp_override(area=None, active_object=obj, object=obj, **edited): done = operator(**arguments)  # noqa: E701
     return done

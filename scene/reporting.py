@@ -53,6 +53,8 @@ class ReportingOperator:
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        # The redo panel takes back what was done, and calls at once: until then, no object knows where it is.
+        context.evaluated_depsgraph_get()
         return self.attempt(self.run, context)
 
     def attempt(self, work: Callable[..., set[str] | None], *arguments: object) -> set[str]:

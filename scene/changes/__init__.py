@@ -4,7 +4,7 @@
 - ``edits``: parts changed by hand
 - ``reactions``: what a slider or a new name does
 - ``settled``: sliders that go back when what they ask for cannot be shown
-- ``sculpt_undo``: undo in Sculpt Mode
+- ``undo_steps``: undo of properties in Sculpt and Edit Mode
 - ``watch``: notices that a mesh was edited or deleted
 - ``moved``: the result of a mesh that was moved as a whole goes along
 - ``alike``: parts that are alike, and names carried to other models

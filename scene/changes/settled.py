@@ -16,7 +16,7 @@ import bpy
 from bpy.props import StringProperty
 
 from .. import property_updates, transaction
-from . import sculpt_undo
+from . import undo_steps
 
 #: The group on each kind of data block that remembers.
 _GROUPS = {bpy.types.Mesh: "reeb_parts", bpy.types.Object: "reeb_parts_made", bpy.types.Scene: "reeb_parts"}
@@ -69,6 +69,6 @@ def reaction(work: Callable) -> Callable:
                 transaction.on_failure(getattr(block, name).take_back)
                 transaction.keep_group(block, name)
             work(group, context)
-        sculpt_undo.soon(context)
+        undo_steps.soon(context)
 
     return update

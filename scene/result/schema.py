@@ -20,7 +20,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..changes import reactions
+from ..changes import reactions, undo_steps
 from ..changes.settled import Settled
 from ..settings import JOINTS, ReebPartsSettings, ReebPartsUse
 from ..showing import explode
@@ -49,7 +49,10 @@ class ReebPart(bpy.types.PropertyGroup):
     )
     pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
     only_locked: BoolProperty(description="The part is pinned by its lock alone, and was not changed by hand")
-    selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
+    selected: BoolProperty(
+        name="Selected", update=lambda _, context: undo_steps.keep_all(context), options=set(),
+        description="Included in what is done to the selected parts",
+    )
     group: StringProperty(description="The vertex group made for the part")
     material: PointerProperty(type=bpy.types.Material, description="The material made for the part")
 

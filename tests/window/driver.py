@@ -40,6 +40,8 @@ def steps():
     seen["redone"] = scene_facts()
     yield 0.5
     pointer.shot("4_redone.png")
+    yield from repeat_hulls(seen)
+    yield from rename_in_edit_mode(seen)
     yield from adjust_separate(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
@@ -76,6 +78,47 @@ def press_decompose(seen):
         raise TimeoutError("no parts after a click on Decompose, see failed.png")
     yield from pointer.rest(*pointer.in_view(0.4))
     yield 1.0
+
+
+def repeat_hulls(seen):
+    """Make hulls of the scaled model, and make them again as the panel of what was done last does; undo all of it."""
+    model().scale = (2.0, 1.0, 0.5)
+    bpy.ops.ed.undo_push(message="Scale")
+    bpy.ops.reeb_parts.hulls("EXEC_DEFAULT", True)
+    seen["hulls"] = hulls()
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
+    yield 0.3
+    seen["hulls again"] = hulls()
+    for _ in range(2):
+        bpy.ops.ed.undo()
+    yield 0.3
+
+
+def rename_in_edit_mode(seen):
+    """Choose a part in Edit Mode, rename it, and change the name as the panel of what was done last does; undo that."""
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.object.mode_set("INVOKE_DEFAULT", True, mode="EDIT")
+        result = model().data.reeb_parts
+        result.active = 2
+        result.parts[1].selected = True
+        bpy.ops.ed.undo_push(message="Click")  # as Blender does after one in the list
+        bpy.ops.reeb_parts.rename("EXEC_DEFAULT", True, new_name="One")
+        bpy.context.window_manager.operators[-1].properties.new_name = "Two"
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
+        seen["names"] = [part.name for part in model().data.reeb_parts.parts]
+        bpy.ops.ed.undo()
+        result = model().data.reeb_parts
+        seen["chosen"] = [result.active, [part.selected for part in result.parts][:3]]
+        for _ in range(2):
+            bpy.ops.ed.undo()
+    yield 0.3
+
+
+def hulls():
+    """The box of each hull, and its scale."""
+    return {obj.name: [[round(x, 5) for x in (*obj.dimensions, *obj.scale)]] for obj in bpy.data.objects
+            if obj.name.startswith("UCX_")}
 
 
 def adjust_separate(seen):

@@ -45,6 +45,17 @@ def test_separate_can_be_adjusted_once_a_piece_is_active(seen):
     assert seen["adjusted"] == dict.fromkeys(seen["separated"], True)
 
 
+def test_what_is_adjusted_is_as_if_it_were_done_once(seen):
+    assert seen["hulls"]
+    assert seen["hulls again"] == seen["hulls"]
+
+
+def test_what_is_adjusted_in_edit_mode_is_the_part_that_was_chosen_there(seen):
+    """Undo took back the choice as well, and another part was renamed."""
+    assert seen["names"].index("Two") == 2
+    assert seen["chosen"] == [2, [False, True, False]]
+
+
 def test_pictures_are_left(seen):
     assert [path.name for path in sorted(OUT.glob("*.png"))] == [
         "1_tab.png", "2_decomposed.png", "3_undone.png", "4_redone.png", "5_adjusted.png",

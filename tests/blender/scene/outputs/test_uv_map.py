@@ -298,6 +298,18 @@ def test_from_every_mode(obj, mode):
     assert obj.data.uv_layers.keys() == [MAP]
 
 
+def test_from_an_image_editor(obj):
+    """Where it shows an image, Blender's own operators for UV maps refuse."""
+    bpy.ops.reeb_parts.decompose()
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    area.ui_type = "IMAGE_EDITOR"
+    with bpy.context.temp_override(window=window, area=area, region=area.regions[-1]):
+        bpy.ops.reeb_parts.unwrap()
+    area.ui_type = "VIEW_3D"
+    assert obj.data.uv_layers.keys() == [MAP]
+
+
 def test_a_full_mesh_is_refused_in_a_sentence(obj):
     for _ in range(8):
         obj.data.uv_layers.new()

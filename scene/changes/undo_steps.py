@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo in Sculpt Mode, where Blender makes no step for a property that is changed in the sidebar: we do.
+"""Undo of properties that are changed in the sidebar, in the modes in which Blender's own does not know them.
 
-A step is made once the properties rest, so that a drag of a slider is one.
+In Sculpt Mode it makes no step for them: we do, once the properties rest, so that a drag of a slider is one. In Edit
+Mode its step is of the edited mesh alone, and what the list showed before came back with the next thing undone.
 """
 
 from __future__ import annotations
@@ -21,11 +22,18 @@ _changed = 0.0  # when a property was changed last
 def soon(context: bpy.types.Context) -> None:
     """A property was changed by the user: make a step of undo soon, if Blender does not."""
     global _changed
+    keep_all(context)
     if bpy.app.background or context.mode != "SCULPT":
         return
     _changed = time.monotonic()
     if not bpy.app.timers.is_registered(_step):
         bpy.app.timers.register(_step, first_interval=REST)
+
+
+def keep_all(context: bpy.types.Context) -> None:
+    """A property was changed: have Blender's next step keep more than the edited mesh, as it does after a new block."""
+    if not bpy.app.background and context.mode == "EDIT_MESH":
+        bpy.data.meshes.remove(bpy.data.meshes.new("Reeb Parts"), do_unlink=False)
 
 
 def _step() -> float | None:
