@@ -52,12 +52,13 @@ class Computations:
 
     def _group(self, obj: bpy.types.Object) -> list[bpy.types.Object]:
         """An object and those that follow, as many as are computed and kept in memory at a time."""
-        if obj in self._ahead:
-            del self._ahead[:self._ahead.index(obj)]
+        if obj not in self._ahead:  # such as the second of two that share a mesh, the first of which went wrong
+            return []
+        del self._ahead[:self._ahead.index(obj)]
         size, group = 0, []
         while self._ahead and (size := size + _size(self._ahead[0])) <= MOST_AT_A_TIME:
             group.append(self._ahead.pop(0))
-        return group if obj in group else []
+        return group
 
     def _side_by_side(self, group: list[bpy.types.Object]) -> dict[bpy.types.Object, Outcome]:
         """What becomes of several objects; of those that are left out, nothing is known.
