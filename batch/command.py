@@ -93,7 +93,7 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
             with interrupts.allowed():
                 for obj in objects:
                     # What is written to a mesh is written to all objects that share it.
-                    twin = next((other for other in done if obj is not None and other.data == obj.data), None)
+                    twin = next((other for other in done if other.data == obj.data), None)
                     try:
                         with in_its_scene(obj):
                             leave_edit_mode(bpy.context)
@@ -101,7 +101,7 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
                         reports.append(report | sources.get(obj, {}))
                         done.append(obj)
                     except (SceneError, ReebError, MemoryError) as error:
-                        problems.append(problem(getattr(obj, "name", ""), error))
+                        problems.append(problem(obj.name, error))
             if not done:
                 raise SceneError("Nothing was decomposed.")
             with interrupts.allowed():
@@ -151,7 +151,7 @@ def _as_text(result: dict) -> str:
     return json.dumps(result, indent=2, allow_nan=False) + "\n"
 
 
-def decompose_object(obj: bpy.types.Object | None, computations: Computations, options: argparse.Namespace,
+def decompose_object(obj: bpy.types.Object, computations: Computations, options: argparse.Namespace,
                      twin: bpy.types.Object | None = None) -> dict:
     """Read, compute and write one object, all that is asked for or nothing; its entry in the JSON.
 
@@ -162,7 +162,6 @@ def decompose_object(obj: bpy.types.Object | None, computations: Computations, o
     from ..scene.saving.object_report import object_report  # imports SciPy
 
     targets.check_object(obj)
-    assert obj is not None
     outcome = None if twin else computations.outcome(obj)
     with transaction():
         if outcome is not None:

@@ -12,7 +12,6 @@ from ..core.parameters import Parameters
 from ..core.processors import n_processors
 from ..core.progress import said_in_steps
 from ..scene import bridge, targets
-from ..scene.bridge import Shape
 from ..scene.errors import SceneError
 from ..scene.modes import leave_edit_mode
 from ..scene.runs.compute import Outcome
@@ -37,12 +36,12 @@ class Computations:
         self._parameters, self._hints = parameters, hints
         self._found: dict[bpy.types.Object, Outcome] = {}
         first: dict[bpy.types.ID | None, bpy.types.Object] = {}  # of those that share a mesh
-        for obj in filter(None, objects):
+        for obj in objects:
             first.setdefault(obj.data, obj)
         self._ahead = list(first.values())
 
     def outcome(self, obj: bpy.types.Object) -> Outcome:
-        """The decomposition of an object that can be decomposed; raises what the user should hear."""
+        """The decomposition of an object that can be decomposed, in its scene; raises what the user should hear."""
         if obj not in self._found:
             self._found = self._side_by_side(self._group(obj))
         outcome = self._found.pop(obj, None) or self._alone(obj)
@@ -70,7 +69,10 @@ class Computations:
         read = {}
         for obj in group:
             try:
-                read[obj] = self._read(obj)
+                with in_its_scene(obj):
+                    leave_edit_mode(bpy.context)
+                    targets.check_object(obj)
+                    read[obj] = bridge.read_shape(obj, self._hints)
             except (SceneError, ReebError, MemoryError):
                 continue
         tell = said_in_steps(say)
@@ -83,14 +85,9 @@ class Computations:
 
     def _alone(self, obj: bpy.types.Object) -> Outcome:
         """What becomes of one object in this process."""
+        shape = bridge.read_shape(obj, self._hints)
         progress = said_in_steps(lambda line: say(f"{obj.name}: {line}"))
-        return computed([(obj.name, self._read(obj))], self._parameters, progress)[0]
-
-    def _read(self, obj: bpy.types.Object) -> Shape:
-        with in_its_scene(obj):
-            leave_edit_mode(bpy.context)
-            targets.check_object(obj)
-            return bridge.read_shape(obj, self._hints)
+        return computed([(obj.name, shape)], self._parameters, progress)[0]
 
 
 def _size(obj: bpy.types.Object) -> int:
@@ -98,9 +95,9 @@ def _size(obj: bpy.types.Object) -> int:
     return len(obj.data.vertices) if obj.type == "MESH" else 0
 
 
-def in_its_scene(obj: bpy.types.Object | None) -> AbstractContextManager:
+def in_its_scene(obj: bpy.types.Object) -> AbstractContextManager:
     """A context with the scene of an object that is not in the one that is open: what is made of it goes there."""
-    scenes = obj.users_scene if obj is not None else ()
+    scenes = obj.users_scene
     if not scenes or bpy.context.scene in scenes:
         return nullcontext()
     layers = scenes[0].view_layers

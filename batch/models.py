@@ -14,7 +14,6 @@ import bpy
 
 from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
-from ..scene.ours.made_objects import ROLE
 from ..scene.pieces import origins
 from ..scene.saving.run_files import reason
 from .importers import IMPORTERS, WITHOUT_UNIT, import_model
@@ -61,15 +60,10 @@ def _named(name: str) -> list[bpy.types.Object]:
     if not any(sign in name for sign in "*?["):
         raise SceneError(f"There is no object {name} in the scene.")
     found = [obj for obj in bpy.data.objects
-             if obj.type == "MESH" and fnmatchcase(obj.name, name) and obj.users_scene and not _is_made(obj)]
+             if obj.type == "MESH" and fnmatchcase(obj.name, name) and obj.users_scene and not origins.is_made(obj)]
     if not found:
         raise SceneError(f"There is no mesh with a name like {name} in the scene.")
     return found
-
-
-def _is_made(obj: bpy.types.Object) -> bool:
-    """Whether an object was made of the parts of another."""
-    return any(key in obj for key in (ROLE, origins.KEY, origins.NUMBER))
 
 
 def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]:

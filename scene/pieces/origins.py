@@ -92,6 +92,11 @@ def has_any(obj: bpy.types.Object, kind: str) -> bool:
     return any(kind in item for item in _inside(obj)) or any(kind in item for item in _away(obj))
 
 
+def is_made(item: bpy.types.Object) -> bool:
+    """Whether something was made of an object's parts, by whatever version."""
+    return any(mark in item for mark in (KEY, NUMBER, made_objects.ROLE))
+
+
 def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     """The object that a piece was separated from, or None if it is gone."""
     if NUMBER not in piece:

@@ -82,8 +82,7 @@ class Job:
         self.error: Exception | None = None
         self._shapes, self._parameters = shapes, parameters
         self._found: dict[tuple, Any] = {}  # a Decomposition or an error of core, by compute.key_of
-        self._missing: list[int] = []  # shapes that are computed
-        self._far: dict[int, float] = {}  # how far each of them is, 0..1
+        self._missing: dict[int, float] = {}  # shapes that are computed, and how far each of them is, 0..1
         self._tasks: list[_Task] = []
 
     def start(self) -> None:
@@ -92,15 +91,16 @@ class Job:
             key = compute.key_of(shape, self._parameters)
             if key not in self._found:
                 self._found[key] = compute.known(shape, self._parameters)
-                self._missing += [index] if self._found[key] is None else []
+                if self._found[key] is None:
+                    self._missing[index] = 0.0
         if not self._missing:
             self._finish()
             return
-        self._far = dict.fromkeys(self._missing, 0.0)
-        groups = spread([len(self._shapes[index][1].vertices) for index in self._missing], n_processors())
+        missing = list(self._missing)
+        groups = spread([len(self._shapes[index][1].vertices) for index in missing], n_processors())
         try:
             for group in groups:
-                self._start([self._missing[place] for place in group], len(groups))
+                self._start([missing[place] for place in group], len(groups))
         except BaseException as error:
             self._close()
             if not isinstance(error, OSError):  # no interpreter, no room for the arrays, no right to start it
@@ -191,9 +191,9 @@ class Job:
 
     def _show(self, task: _Task, stage: str, share: float) -> None:
         """A process is at a stage of a shape. Of several, what the first does that is not done is what is shown."""
-        self._far[task.at] = share
+        self._missing[task.at] = share
         known = len(self._shapes) - len(self._missing)
-        self.share = max(self.share, self._of_all((known + sum(self._far.values())) / len(self._shapes)))
+        self.share = max(self.share, self._of_all((known + sum(self._missing.values())) / len(self._shapes)))
         if task is next(other for other in self._tasks if not other.over):
             self.stage, self.of = stage, self._shapes[task.at][0] if len(self._shapes) > 1 else ""
 
@@ -215,7 +215,7 @@ class Job:
             except MemoryError as error:
                 raise self._failure(task, memory=True) from error
             compute.remember(shape, self._parameters, found)
-        self._far[task.at] = 1.0
+        self._missing[task.at] = 1.0
         self._found[compute.key_of(shape, self._parameters)] = found
 
     def _failure(self, task: _Task, memory: bool = False, reason: str = "") -> SceneError:
