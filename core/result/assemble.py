@@ -10,9 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..arrays.components import components
-from ..arrays.indexing import is_last_of_each, last_of_each, sums_by
-from ..arrays.nearest import nearest_before
+from ..arrays.indexing import is_last_of_each
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
@@ -28,6 +26,7 @@ from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
 from ..surface.preparation import WorkingMesh
 from ..symmetry.mirrors import Mirror
+from .bodies import Bodies
 from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
 from .junctions import boundaries, junctions
@@ -236,7 +235,7 @@ def _voted(
     # Candidates may be smaller than the caller's faces that were refined, and would be lost in them.
     held = loss if parameters.traits.small_candidates else None
     label = connect(graph, straighten(graph, label, parameters.smoothing, held))
-    return FaceCandidates(graph, _contacts(working, results, graph), label, found.hierarchy)
+    return FaceCandidates(graph, Bodies.of(working, results, graph).pairs, label, found.hierarchy)
 
 
 def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:
@@ -267,30 +266,6 @@ def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceC
     finer = Hierarchy.of(hierarchy.n_candidates + len(apart), np.concatenate([merges, hierarchy.merges]),
                          np.concatenate([np.zeros(len(apart)), hierarchy.salience]))
     return replace(candidates, label=name[piece], hierarchy=finer)
-
-
-def _contacts(working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph) -> np.ndarray:
-    """(k, 2) int64, faces of the caller that touch without an edge; then the links of bodies to larger ones."""
-    inside = [r.component.polygon[r.contacts] for r in results]
-    pairs = np.concatenate([np.empty((0, 2), np.int64), *inside])
-    count, piece = graph.pieces
-    joined, of_piece = components(count, *piece[pairs].T)
-    body = of_piece[piece]
-    if joined == 1:
-        return pairs
-    mesh = working.mesh
-    face_body = body[working.polygon]
-    weight = mesh.face_weight
-    area = np.bincount(face_body, weight, joined)
-    center = sums_by(face_body, weight[:, None] * mesh.face_centroids, joined)
-    center /= np.where(area > 0, area, 1.0)[:, None]
-    order = np.argsort(-area, kind="stable")
-    order = order[area[order] > 0]  # without those of faces that the copy lacks
-    links = np.stack([order[1:], order[nearest_before(center[order])[1:]]], axis=1)
-    # A face of each body: the nearest to its middle.
-    offset = np.linalg.norm(mesh.face_centroids - center[face_body], axis=1)
-    face = last_of_each(face_body, -offset, count=joined)
-    return np.concatenate([pairs, working.polygon[face[links]]])
 
 
 def _vertex_field(
