@@ -62,15 +62,16 @@ def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
         chosen = next(k for k in (chosen, *close) if finer[k] >= max(finer.values()) - CLEAR)
     if len(likely) > 1:
         chosen = next((k for k in likely if is_exact(faces.polygons, start[k])), chosen)
+    # A plane through the middle, across a principal axis, is exact where the shape is, and the same in all poses.
+    exact = judged(start[chosen], many, probes)
+    if exact.share >= 1 - EXACT:  # none is better
+        return faces.outwards(exact)
     best, = _improved([tried[chosen]], many, probes)
     if best.share < LEAST:
         return None
     if len(many.area) < len(elements.area):
         best, = _improved([best], elements, probes)
-    # A plane through the middle, across a principal axis, is exact where the shape is, and the same in all poses.
-    if (exact := judged(start[chosen], many, probes)).share >= best.share - EXACT:
-        best = exact
-    return faces.outwards(best)
+    return faces.outwards(exact if exact.share >= best.share - EXACT else best)
 
 
 def is_exact(polygons: Elements, plane: MirrorPlane) -> bool:
