@@ -15,6 +15,7 @@ from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.settling import settle
+from ..cuts.swarms import joined_swarms
 from ..cuts.symmetric.method import symmetric_candidates, turned_candidates
 from ..cuts.symmetric.regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
@@ -89,8 +90,12 @@ def _face_candidates(
     """The candidates of the caller's faces, after all that follows cutting. hint : (p,) int64 or empty."""
     coarse = [mirror for mirror in mirrors if mirror.within]
     found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
-    candidates = _voted(given, working, found.with_rest(working, results), results, parameters)
-    candidates = _with_loose_apart(candidates, working)
+    graph = face_graph_of(given, working)
+    found = found.with_rest(working, results)
+    label, contacts = _voted(given, graph, found, results, parameters), Bodies.of(working, results, graph).pairs
+    candidates = _with_loose_apart(FaceCandidates(graph, contacts, label, found.hierarchy), working)
+    if parameters.pieces == TOGETHER:
+        candidates = joined_swarms(candidates, working.mesh, working.polygon)
     for mirror in (mirror for mirror in mirrors if not mirror.within):
         candidates = _symmetric(candidates, mirror)
     if mirrors and len(candidates.contacts):  # what an edge joins on one side, a contact may join on the other
@@ -219,11 +224,10 @@ def _nearest_kept(given: PolygonMesh, kept: np.ndarray, lost: np.ndarray) -> np.
 
 
 def _voted(
-    given: PolygonMesh, working: WorkingMesh, found: FoundCandidates, results: list[ComponentResult],
+    given: PolygonMesh, graph: FaceGraph, found: FoundCandidates, results: list[ComponentResult],
     parameters: Parameters,
-) -> FaceCandidates:
-    """The candidates for which the pieces of the caller's faces vote, all of them connected; some may have no face."""
-    graph = face_graph_of(given, working)
+) -> np.ndarray:
+    """The candidates for which the pieces of the caller's faces vote, (p,) int64, connected; some may have no face."""
     votes = FaceVotes(found.face, found.label, found.area, given.n_polygons, found.hierarchy)
     width = _refined_width(given, results)
 
@@ -234,8 +238,7 @@ def _voted(
     label = connect(graph, fill_unlabeled(graph, votes.winners()))
     # Candidates may be smaller than the caller's faces that were refined, and would be lost in them.
     held = loss if parameters.traits.small_candidates else None
-    label = connect(graph, straighten(graph, label, parameters.smoothing, held))
-    return FaceCandidates(graph, Bodies.of(working, results, graph).pairs, label, found.hierarchy)
+    return connect(graph, straighten(graph, label, parameters.smoothing, held))
 
 
 def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:
