@@ -530,6 +530,11 @@ TEXTS = {
         "Die Stelle liegt auf einem Bogen des Graphen; sonst auf der Oberfläche",
     "Add the part to those that are chosen, or take it away again":
         "Das Teil zu den gewählten hinzunehmen oder wieder herausnehmen",
+    "Number of the part that becomes the active one; 0 for the part at the location":
+        "Nummer des Teils, das das aktive wird; 0 für das Teil an der Stelle",
+    "Marked": "Angekreuzt",
+    "With a number of a part: numbers of the parts that are marked, separated by commas":
+        "Zusammen mit der Nummer eines Teils: Nummern der angekreuzten Teile, durch Kommas getrennt",
     "Location": "Position",
     "Make one part of the parts marked in the list; it takes the name of the active one":
         "Aus den in der Liste angekreuzten Teilen eines machen; es erhält den Namen des aktiven",

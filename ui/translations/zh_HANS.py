@@ -503,6 +503,11 @@ TEXTS = {
     "On the Graph": "在图上",
     "The location is on an arc of the graph; without it, on the surface": "位置在图的弧上；禁用时在表面上",
     "Add the part to those that are chosen, or take it away again": "将部件添加到所选部件中，或从中移除",
+    "Number of the part that becomes the active one; 0 for the part at the location":
+        "成为活动部件的部件编号；0 表示该位置处的部件",
+    "Marked": "已标记",
+    "With a number of a part: numbers of the parts that are marked, separated by commas":
+        "与部件编号一起使用：已标记部件的编号，以逗号分隔",
     "Location": "位置",
     "Make one part of the parts marked in the list; it takes the name of the active one":
         "将列表中勾选的部件合并为一个；采用活动部件的名称",
