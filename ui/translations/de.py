@@ -897,6 +897,8 @@ TEXTS = {
         "Der Prozess, der {name} zerlegte, endete unerwartet ({reason}); nichts wurde geändert. Bitte noch einmal "
         "versuchen, und es melden, wenn das wieder geschieht.",
     "Cancelled; nothing was changed": "Abgebrochen; nichts wurde geändert",
+    "{command} was ended with its window; nothing was changed.":
+        "{command} wurde mit seinem Fenster beendet; nichts wurde geändert.",
     "{name} is gone; its parts were computed in vain.":
         "{name} ist nicht mehr da; seine Teile wurden vergeblich berechnet.",
     "{name} was changed while its parts were computed. Decompose it again.":

@@ -805,6 +805,8 @@ TEXTS = {
     "if that happens again.":
         "分解 {name} 的进程意外终止（{reason}）；未更改任何内容。请重试；如果再次发生，请报告。",
     "Cancelled; nothing was changed": "已取消；未更改任何内容",
+    "{command} was ended with its window; nothing was changed.":
+        "{command}已随其窗口结束；未作任何更改。",
     "{name} is gone; its parts were computed in vain.": "{name} 已不存在；其部件的计算结果未被使用。",
     "{name} was changed while its parts were computed. Decompose it again.":
         "{name} 在计算部件期间被更改。请重新分解。",
