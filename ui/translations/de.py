@@ -1019,6 +1019,8 @@ TEXTS = {
         "sind aber nicht mit ihnen zu verbinden}: dort bleiben Teile offen",
     "The active object is not a part that was separated from another one":
         "Das aktive Objekt ist kein Teil, das von einem anderen abgetrennt wurde",
+    "The object that {name} was separated from is not in this file.":
+        "Das Objekt, von dem {name} abgetrennt wurde, ist nicht in dieser Datei.",
     "Seams around {n} {n:part|parts}": "Nähte um {n} {n:Teil|Teile}",
     "The seams are yours alone again": "Es sind wieder nur die eigenen Nähte da",
     "{n} {n:part is a face set|parts are face sets}": "{n} {n:Teil ist ein Face Set|Teile sind Face Sets}",

@@ -902,6 +902,8 @@ TEXTS = {
     "with them}: parts stay open there":
         "{n} 个开放边顶点与其他顶点重合，但无法相连：部件在该处保持开放",
     "The active object is not a part that was separated from another one": "活动物体不是从其他物体分离出的部件",
+    "The object that {name} was separated from is not in this file.":
+        "{name}所分离自的物体不在此文件中。",
     "Seams around {n} {n:part|parts}": "{n} 个部件周围的缝合边",
     "The seams are yours alone again": "现在只剩您自己的缝合边",
     "{n} {n:part is a face set|parts are face sets}": "{n} 个部件现为面组",
