@@ -13,7 +13,7 @@ IDS = {"Pick Parts": "pick", "Cut Part": "cut", "Paint into": "paint", "Slide Bo
 @pytest.fixture(scope="module")
 def seen(drive):
     """What the driver saw after each step."""
-    return drive("tools.py", "tools", seconds=300)
+    return drive("tools.py", "tools", seconds=330)
 
 
 def test_the_menu_of_the_shortcut_does_what_the_panel_says(seen):

@@ -21,6 +21,7 @@ PACKAGE = "bl_ext.user_default.reeb_parts"
 
 def steps():
     """One step after the other; yields the seconds to wait."""
+    importlib.import_module(f"{PACKAGE}.scene.stepped")._BREATH = 0.001  # or all is over at the first look
     yield from pointer.spot_alone()
     for when in ("computing", "reading", "writing"):
         if when == "reading":
