@@ -56,11 +56,12 @@ class _Left:
 
     def go_on(self) -> None:
         """Called by Blender when the window is gone."""
-        windows = bpy.context.window_manager.windows[:]
+        # Windows with a viewport first, before those of the preferences and such.
+        windows = sorted(bpy.context.window_manager.windows, key=lambda window: not _viewports(window))
         same = [window for window in windows if _shown(window) == self._showed]
         try:
             if not same or jobs.current is not None or not self._start(same[0]):
-                self._end(windows[0])
+                self._end(windows)
         finally:
             self._forget()
 
@@ -68,9 +69,9 @@ class _Left:
         """Call the operator in a window, over a viewport if it has one; whether it has begun."""
         module, name = self._called.lower().split("_ot_")
         call = getattr(getattr(bpy.ops, module), name)
-        areas = [area for area in window.screen.areas if area.type == "VIEW_3D"][:1]
-        regions = [region for area in areas for region in area.regions if region.type == "WINDOW"][:1]
-        place = {"area": areas[0], "region": regions[0]} if regions else {}
+        place: dict[str, Any] = {}
+        for area in _viewports(window)[:1]:
+            place = {"area": area, "region": next(region for region in area.regions if region.type == "WINDOW")}
         try:
             with bpy.context.temp_override(window=window, **place):
                 done = call("INVOKE_DEFAULT", True, **self._arguments)
@@ -78,12 +79,14 @@ class _Left:
             return False
         return done != {"CANCELLED"}
 
-    def _end(self, window: bpy.types.Window) -> None:
-        """End it, and say so: nobody would hear of it."""
+    def _end(self, windows: list[bpy.types.Window]) -> None:
+        """End it, and say so in one of the windows: nobody would hear of it."""
         self.cancel(bpy.context)
+        if not windows:  # Blender quits
+            return
         words = rpt_("{command} was ended with its window; nothing was changed.").format(
             command=rpt_(self._label, "Operator"))
-        with bpy.context.temp_override(window=window):
+        with bpy.context.temp_override(window=windows[0]):
             bpy.context.window_manager.popup_menu(
                 lambda menu, _: menu.layout.label(text=words), title="Reeb Parts", icon="INFO")
 
@@ -99,6 +102,11 @@ class _Left:
         _left = None
         if bpy.app.timers.is_registered(self.timer):
             bpy.app.timers.unregister(self.timer)
+
+
+def _viewports(window: bpy.types.Window) -> list[bpy.types.Area]:
+    """The 3D viewports of a window."""
+    return [area for area in window.screen.areas if area.type == "VIEW_3D"]
 
 
 def _arguments(properties: bpy.types.OperatorProperties) -> dict[str, Any]:
