@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is wrong with separated parts: found, shown and repaired."""
 
+from collections.abc import Callable
+
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -27,16 +29,17 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
     bl_label = "Check Parts"
 
     def run(self, context: bpy.types.Context) -> None:
-        pieces = _chosen_pieces(context)
+        pieces = _chosen_pieces(context, self.report)
         piece_objects.check_pieces(pieces)
         redraw.sidebars()
         report_unsound(self, pieces)
 
 
-def _chosen_pieces(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """The active one and all selected ones."""
-    chosen = [targets.active_object(context), *targets.selected_objects(context)]
-    return list(origins.originals(chosen))
+def _chosen_pieces(context: bpy.types.Context, report: Callable[[set[str], str], None]) -> list[bpy.types.Object]:
+    """The active one and all selected ones that can be written; of others it is said why not."""
+    chosen = dict.fromkeys([targets.active_object(context), *targets.selected_objects(context)])
+    pieces = [item for item in chosen if item is not None and origins.NUMBER in item]
+    return [piece for piece, _ in targets.usable(pieces, targets.check_object, report)]
 
 
 class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
@@ -76,9 +79,7 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
     bl_label = "Repair Part"
 
     def run(self, context: bpy.types.Context) -> None:
-        pieces = _chosen_pieces(context)
-        for piece in pieces:
-            targets.check_object(piece)
+        pieces = _chosen_pieces(context, self.report)
         shared = ", ".join(piece.name for piece in pieces if piece.data.users > 1)
         if shared:
             raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=shared))

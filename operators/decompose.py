@@ -8,7 +8,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.parameters import Parameters
 from ..core.sentence import Count
 from ..core.steps import Steps, finished, stretched
-from ..scene import bridge, defaults, targets
+from ..scene import another_window, bridge, defaults, targets
 from ..scene.bridge import Shape
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
@@ -49,6 +49,8 @@ class REEB_PARTS_OT_decompose(
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        if another_window.taken_over() is not None:  # whatever is active by now
+            return True
         obj = targets.active_object(context)
         if obj is None or obj.type != "MESH":
             cls.poll_message_set(rpt_("Select a mesh first"))
@@ -136,7 +138,7 @@ class REEB_PARTS_OT_decompose(
         if self._job.error is not None:
             raise self._job.error
         assert self._job.result is not None
-        check_unchanged(self._digests)
+        check_unchanged(self._job.digests)
         if self.colors:
             shading.show_colors(context)
         yield from self._writing(context, self._job.result)
@@ -145,13 +147,13 @@ class REEB_PARTS_OT_decompose(
 
     # In the window
 
-    _job: jobs.Job | None = None
-
     def _start(self, context: bpy.types.Context) -> set[str]:
-        self._large = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context)) >= LARGE
         self._rounds = 0
+        self._job = another_window.taken_over()
+        self._large = (sum(len(obj.data.vertices) for obj in targets.chosen_objects(context))
+                       if self._job is None else self._job.n_vertices) >= LARGE
         self._launching = self._launch(context)
-        if not self._large:
+        if self._job is None and not self._large:
             finished(self._launching)
         self._watch(context, self._job or jobs.Progress(n_("reading the mesh")), 0.05)
         context.window_manager.modal_handler_add(self)
@@ -163,7 +165,6 @@ class REEB_PARTS_OT_decompose(
         yield 1.0
         self._job = jobs.Job(shapes, parameters, READ if self._large else 0.0)
         self._job.start()
-        self._digests = {name: shape.digest for name, shape in shapes}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the process; every other event goes its usual way. Then write, in steps if that takes long."""
@@ -207,13 +208,17 @@ class REEB_PARTS_OT_decompose(
         self._progress = jobs.current = self._job
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Blender closes the window or opens another file, or Esc ends the writing."""
+        """Blender closes the window or opens another file, or Esc ends the writing.
+
+        Where the user closes this window only, it goes on in another one.
+        """
         if self._work is not None:
             super().cancel(context)
-        else:
-            self._launching.close()
+            return
+        self._launching.close()
+        self._stop_watching(context)
+        if not self._go_on_elsewhere(context):
             self._progress.cancel()
-            self._stop_watching(context)
 
     def progress_text(self) -> str:
         """For the status bar."""

@@ -193,7 +193,7 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        _check_shown(context, origins.original(piece_objects.active_piece(context)))
+        _check_shown(context, piece_objects.original_of(piece_objects.active_piece(context)))
 
     def run(self, context: bpy.types.Context) -> None:
         pieces = [targets.active_object(context), *targets.selected_objects(context)]

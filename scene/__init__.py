@@ -28,6 +28,7 @@ What every operator needs:
 - ``reporting``: operators that tell what is wrong
 - ``stepped``: operators whose work can be long
 - ``running``: operators that go on in the window
+- ``another_window``: where they go on when the user closes it
 - ``targets``: which objects can be worked on
 - ``errors``: what users are told, and the way into core
 - ``transaction``: all or nothing

@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from ..core.steps import Steps, finished
-from . import redraw, running, store
+from . import another_window, redraw, running, store
 from .errors import SceneError, translated
 from .reporting import ReportingOperator
 from .runs import jobs
@@ -41,6 +41,7 @@ class SteppedOperator(ReportingOperator):
     #: What it is doing, for the status bar.
     stage = ""
     _work: Steps[None] | None = None
+    _job: jobs.Job | None = None  # what is computed before the work, if anything
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         """Do what the operator is for, see core/steps.py. Raises SceneError or ReebError."""
@@ -72,12 +73,20 @@ class SteppedOperator(ReportingOperator):
         return self._go_on(context) if event.type == "TIMER" else {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Esc, or Blender closes the window: take back what was done."""
+        """Esc, or Blender closes the window: take back what was done. In another window it then begins anew."""
         assert self._work is not None
         try:
             self._work.close()
         finally:
             self._stop_watching(context)
+        self._go_on_elsewhere(context)
+
+    def _go_on_elsewhere(self, context: bpy.types.Context) -> bool:
+        """Have it called again in another window if the user closes this one; whether it will be."""
+        if self._progress.cancelled or not another_window.is_closing(context):
+            return False
+        another_window.go_on(self, context, self._job)
+        return True
 
     def _in_transaction(self, context: bpy.types.Context) -> Steps[None]:
         with transaction():

@@ -128,6 +128,11 @@ def check_object(obj: bpy.types.Object | None) -> None:
         )
 
 
+def is_foreign(obj: bpy.types.Object) -> bool:
+    """Whether an object is linked from another file, be it overridden."""
+    return obj.library is not None or obj.override_library is not None
+
+
 def _source(data: bpy.types.ID) -> str:
     """The file that a data block is linked from."""
     return data.library.filepath if data.library else rpt_("another file")

@@ -8,7 +8,8 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..core.sentence import Count
-from ..scene import store
+from ..scene import store, targets
+from ..scene.errors import SceneError
 from ..scene.pieces import cut_list, origins, piece_checks, piece_objects
 from .fitting import Room
 from .panel import SubPanel
@@ -84,18 +85,28 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return context.object is not None and origins.original(context.object) is not None
+        piece = context.object
+        return piece is not None and (origins.original(piece) is not None or piece_objects.is_from_elsewhere(piece))
 
     def draw(self, context: bpy.types.Context) -> None:
         obj = origins.original(context.object)
-        assert obj is not None  # poll
         room = Room(context)
+        if obj is None:
+            self._draw_why_not(room, context.object)
+            return
         room.wrapped(self.layout.column(align=True), iface_("A part of {name}").format(name=obj.name), "MESH_DATA")
         several = len(set(origins.originals([context.object, *context.selected_objects]).values())) > 1
         show = iface_("Show Originals") if several else iface_("Show {name}").format(name=obj.name)
         room.operator(self.layout, "reeb_parts.show_original", text=show, icon="HIDE_OFF")
         self._draw_check(room, context.object)
         room.operator(self.layout, "reeb_parts.rigid_bodies", text="Make Rigid Bodies", icon="RIGID_BODY")
+
+    def _draw_why_not(self, room: Room, piece: bpy.types.Object) -> None:
+        """Why nothing can be done with a piece of another file."""
+        try:
+            targets.check_object(piece)
+        except SceneError as error:
+            room.wrapped(self.layout.column(align=True), str(error), "INFO")
 
     def _draw_check(self, room: Room, piece: bpy.types.Object) -> None:
         """What a check has found; a click on a line selects it."""

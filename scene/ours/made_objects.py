@@ -22,6 +22,9 @@ from .surroundings import Surroundings
 #: Custom properties of an object that we made: what it is for, such as "node" or "hull"; what it was like when made.
 ROLE, MADE = "reeb_parts_role", "reeb_parts_looks"
 
+#: Of all that was made from an object's parts: the key by which it knows the object, see pieces/origins.py.
+KEY = "reeb_parts_of"
+
 #: Gives the text that earlier versions kept of an object, which differs once somebody has worked on it. It is not
 #: called in Edit Mode.
 Former = Callable[[bpy.types.Object], str]
@@ -50,13 +53,21 @@ def marking(items: Collection[bpy.types.Object]) -> Steps[None]:
     around = Surroundings.now()
     for index, item in enumerate(items):
         yield index / len(items)
-        item[MADE] = object_digest.digest(item, around)
+        item[MADE] = _digest(item, around)
 
 
 def is_as_made(item: bpy.types.Object, former: Former, around: Surroundings) -> bool:
     """Whether an object is still what it was when we made it; not in Edit Mode."""
     known = item.get(MADE)
-    return (object_digest.digest(item, around) if object_digest.is_digest(known) else former(item)) == known
+    return (_digest(item, around) if object_digest.is_digest(known) else former(item)) == known
+
+
+def _digest(item: bpy.types.Object, around: Surroundings) -> str:
+    """The digest of an object, now that it is as it is; not in Edit Mode."""
+    # What is made from parts is put into one collection. Whoever links it to more has not worked on it: what is made
+    # anew is linked there, too, see origins.hand_on.
+    count = around.n_own_collections(item)
+    return object_digest.digest(item, min(count, 1) if KEY in item else count)
 
 
 def is_untouched(item: bpy.types.Object, former: Former, around: Surroundings) -> bool:

@@ -18,7 +18,6 @@ import bpy
 
 from ..reading import element_layers, fingerprints
 from ..showing import visibility
-from .surroundings import Surroundings
 
 _OURS = "reeb_parts"  # how the names of our custom properties begin
 _DIGEST = "looks "  # how a digest begins; what earlier versions kept is a list as text
@@ -74,14 +73,17 @@ _FROM_THE_START |= dict.fromkeys(_NOTHING, 0) | {
 }  # fmt: skip
 
 
-def digest(item: bpy.types.Object, around: Surroundings) -> str:
-    """A text of some 40 letters that differs once somebody has worked on an object; not in Edit Mode."""
+def digest(item: bpy.types.Object, n_collections: int) -> str:
+    """A text of some 40 letters that differs once somebody has worked on an object; not in Edit Mode.
+
+    n_collections : how many the object is in.
+    """
     moving = set(_moving_paths(item.animation_data))
     told: list[Any] = [_told(item, "", moving)]
     for name in _PARTS:
         told += _told_each(getattr(item, name), name, moving)
     told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
-    told += [around.n_own_collections(item), item.asset_data is not None, *_animation(item.animation_data)]
+    told += [n_collections, item.asset_data is not None, *_animation(item.animation_data)]
     if item.type == "MESH":
         told += [fingerprints.fingerprint(item.data), element_layers.contents(item.data, len(item.vertex_groups))]
     elif item.type == "ARMATURE":

@@ -15,6 +15,7 @@ import bpy
 
 from .. import transaction
 from ..ours import made_objects
+from ..ours.made_objects import KEY  # earlier versions had none
 from ..ours.surroundings import Surroundings
 from ..result.part_names import fitted, without_number
 from ..showing import visibility
@@ -23,7 +24,6 @@ COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the
 _PARTS_OF = "Parts of "  # how its name begins
 NUMBER = "reeb_parts_number"  # on a piece: of its part
 DOWEL = "reeb_parts_dowel"  # on a loose dowel: the numbers of the two parts that it joins; once it was 1
-KEY = "reeb_parts_of"  # on all that was made from an object's parts: the key of the object; earlier versions had none
 
 
 def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
@@ -61,23 +61,30 @@ def claim(item: bpy.types.Object, obj: bpy.types.Object) -> None:
 
 def hand_on(obj: bpy.types.Object, gone: list[tuple[str, bpy.types.Object]],
             new: list[tuple[str, bpy.types.Object]]) -> None:
-    """As made_objects.hand_on; what was made anew goes to the collections to which the user moved what was there."""
+    """As made_objects.hand_on; what was made anew goes where the user moved, or linked, what was there."""
     made_objects.hand_on(gone, new)
     around, own = Surroundings.now(), collection_of(obj)
     # What takes the places of several goes where the first of them is.
     first = {heir: item for item, heir in reversed(made_objects.heirs(gone, new))}
     for heir, item in first.items():
         where = [place for place in around.collections[item] if place not in around.physics]
-        if own is not None and where and own not in where and all(place.is_editable for place in where):
+        if own is not None and where and all(place.is_editable for place in where):
             for place in where:
-                place.objects.link(heir)
-            own.objects.unlink(heir)
+                if place != own:
+                    place.objects.link(heir)
+            if own not in where:
+                own.objects.unlink(heir)
 
 
 def include(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> None:
-    """Have the view layer show the collections, be they the user's, that objects lie in."""
+    """Have the view layer show the collections, be they the user's, that objects lie in.
+
+    Of an object that is linked to some of the user's, and still lies in that of the pieces, only this one.
+    """
     around = Surroundings.now()
-    for place in dict.fromkeys(place for item in items for place in around.collections[item]):
+    found = [around.collections[item] for item in items]
+    shown = [[place for place in places if COLLECTION_OF in place] or places for places in found]
+    for place in dict.fromkeys(place for places in shown for place in places):
         if place not in around.physics and not place.is_embedded_data:  # which is that of a scene
             visibility.include(context, place)
 

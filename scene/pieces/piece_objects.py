@@ -80,13 +80,30 @@ def faces_of(face_numbers: np.ndarray, number: int) -> str:
 
 
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:
-    """The active object, in Object Mode; raises SceneError unless it is a piece that was separated."""
+    """The active object, in Object Mode; raises SceneError unless it is a piece that was separated.
+
+    Linked from another file, say, it is one without its original.
+    """
     piece = targets.active_object(context)
-    if piece is None or original(piece) is None:
+    if piece is None or NUMBER not in piece:
         raise SceneError(rpt_("The active object is not a part that was separated from another one"))
     if context.mode != "OBJECT":
         raise SceneError(rpt_("Go to Object Mode first"))
     return piece
+
+
+def original_of(piece: bpy.types.Object) -> bpy.types.Object:
+    """The object that a piece was separated from; raises SceneError if it is gone, or never was in this file."""
+    obj = original(piece)
+    if obj is None:
+        raise SceneError(rpt_("The object that {name} was separated from is not in this file.").format(
+            name=piece.name))
+    return obj
+
+
+def is_from_elsewhere(obj: bpy.types.Object) -> bool:
+    """Whether an object is a piece that is linked from another file, be it overridden, without its original."""
+    return NUMBER in obj and targets.is_foreign(obj) and original(obj) is None
 
 
 def separated(obj: bpy.types.Object) -> bpy.types.Object:
@@ -99,6 +116,8 @@ def whole(obj: bpy.types.Object) -> bpy.types.Object:
     """The object that was separated, see ``separated``; raises SceneError if it has no pieces."""
     found = separated(obj)
     if not piece_objects(found):
+        if NUMBER in found:
+            original_of(found)
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=found.name))
     return found
 

@@ -27,6 +27,8 @@ def check_parts(obj: bpy.types.Object | None) -> None:
         original = origins.original(obj) if obj is not None else None
         if original is not None:
             raise SceneError(rpt_("Select the original, {name}, first.").format(name=original.name))
+        if obj is not None and targets.is_foreign(obj):
+            targets.check_object(obj)  # nor can it be decomposed
         raise SceneError(rpt_("Decompose the mesh first"))
     targets.check_object(obj)
     assert obj is not None

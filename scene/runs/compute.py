@@ -6,7 +6,7 @@ The last few decompositions are kept, so that the redo panel need not compute th
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -49,7 +49,7 @@ class Outcome:
 
 
 def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
-                progress: Callable[..., None]) -> list[Outcome]:
+                progress: Callable[..., None], received: Mapping[int, Outcome] | None = None) -> list[Outcome]:
     """Decompose shapes one after the other; no Blender data is touched.
 
     Parameters
@@ -58,6 +58,8 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
     parameters : Parameters
     progress : callable(stage, share, name of the object if there are several)
         What it raises ends everything.
+    received : mapping of int -> Outcome, optional
+        What need not be computed, by the place of its shape.
 
     Raises
     ------
@@ -66,6 +68,9 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
     """
     outcomes = []
     for index, (name, shape) in enumerate(shapes):
+        if received and index in received:
+            outcomes.append(received[index])
+            continue
         told = (name,) if len(shapes) > 1 else ()
 
         def step(stage: str, share: float, index: int = index, told: tuple[str, ...] = told) -> None:

@@ -73,6 +73,10 @@ class Job:
         In the order of the shapes; None until all is done.
     error : Exception or None
         Why there will be no result.
+    digests : dict of str
+        Of each object, by its name, the digest of its shape.
+    n_vertices : int
+        Of all shapes.
     """
 
     def __init__(self, shapes: list[tuple[str, Shape]], parameters: Parameters, begin: float = 0.0) -> None:
@@ -80,6 +84,8 @@ class Job:
         self.in_blender = self.cancelled = False
         self.result: list[Outcome] | None = None
         self.error: Exception | None = None
+        self.digests = {name: shape.digest for name, shape in shapes}
+        self.n_vertices = sum(len(shape.vertices) for _, shape in shapes)
         self._shapes, self._parameters = shapes, parameters
         self._found: dict[tuple, Any] = {}  # a Decomposition or an error of core, by compute.key_of
         self._missing: dict[int, float] = {}  # shapes that are computed, and how far each of them is, 0..1
@@ -155,15 +161,16 @@ class Job:
             self.stage, self.share, self.of = stage, self._of_all(share), of
             show()
 
-        self.result = compute.compute_all(self._shapes, self._parameters, progress)
+        self.result = compute.compute_all(self._shapes, self._parameters, progress, self.outcomes)
 
     def _listen(self) -> None:
         """Take what the processes have said; raises SceneError if one has ended before its time."""
+        ended = [task.worker.ended for task in self._tasks]  # asked first: what they say last is not missed
         for task in self._tasks:
-            ended = task.worker.ended  # asked first: what it says last is not missed
             for message in task.worker.messages():
                 self._take(task, message)
-            if task.over or not ended:
+        for task in [task for task, has_ended in zip(self._tasks, ended, strict=True) if has_ended]:
+            if task.over:
                 continue
             if task.ready or task.worker.lacked_memory():
                 raise self._failure(task)
@@ -228,11 +235,17 @@ class Job:
             rpt_("The process that decomposed {name} ended unexpectedly ({reason}); nothing was changed. Try again, "
                  "and report it if that happens again.").format(name=name, reason=reason or task.worker.reason()))
 
-    def _finish(self) -> None:
+    @property
+    def outcomes(self) -> dict[int, Outcome]:
+        """What is there by now, whatever has gone wrong, by the place of its shape."""
         keys = [compute.key_of(shape, self._parameters) for _, shape in self._shapes]
         computed = {keys[index] for index in self._missing}
-        self.result = [Outcome.of(name, shape, self._found[key], key not in computed)
-                       for (name, shape), key in zip(self._shapes, keys, strict=True)]
+        return {index: Outcome.of(name, shape, self._found[key], key not in computed)
+                for index, ((name, shape), key) in enumerate(zip(self._shapes, keys, strict=True))
+                if self._found.get(key) is not None}
+
+    def _finish(self) -> None:
+        self.result = list(self.outcomes.values())
 
     def _close(self) -> None:
         """End the processes and remove what they have worked with."""
@@ -256,6 +269,7 @@ def computed(shapes: list[tuple[str, Shape]], parameters: Parameters,
     SceneError
         There is not enough memory.
     """
+    received = {}
     if len(shapes) > 1 and n_processors() > 1:
         job = Job(shapes, parameters)
         try:
@@ -268,8 +282,9 @@ def computed(shapes: list[tuple[str, Shape]], parameters: Parameters,
             job.cancel()
         if job.result is not None:
             return job.result
+        received = job.outcomes
     # Alone, or after something went wrong with a process: whatever is computed here needs memory for one at a time.
-    return compute.compute_all(shapes, parameters, lambda stage, share, of="": progress(stage, share))
+    return compute.compute_all(shapes, parameters, lambda stage, share, of="": progress(stage, share), received)
 
 
 class Progress:

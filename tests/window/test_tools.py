@@ -13,7 +13,7 @@ IDS = {"Pick Parts": "pick", "Cut Part": "cut", "Paint into": "paint", "Slide Bo
 @pytest.fixture(scope="module")
 def seen(drive):
     """What the driver saw after each step."""
-    return drive("tools.py", "tools", seconds=300)
+    return drive("tools.py", "tools", seconds=330)
 
 
 def test_the_menu_of_the_shortcut_does_what_the_panel_says(seen):
@@ -41,6 +41,13 @@ def test_shift_picks_several(seen):
     assert seen["picked two"] == ["Part 03", ["Part 03", "Part 06"]]
 
 
+def test_several_picks_are_one_thing_to_adjust_and_to_repeat(seen):
+    """Only the last one was known."""
+    assert seen["picked several"] == ["Part 06", ["Part 02", "Part 03"]]
+    assert seen["picked several, adjusted"] == seen["picked several"]
+    assert seen["picked several, repeated"] == seen["picked several"]
+
+
 def test_enter_ends_picking(seen):
     assert seen["after Enter"] == seen["picked on an arc"]
 
@@ -56,9 +63,9 @@ def test_a_stroke_with_a_larger_brush_gives_faces_to_the_active_part(seen):
 
 
 @pytest.mark.parametrize("name", [
-    "pick undone", "cut undone", "cut redone", "cut undone again", "paint undone", "paint redone",
-    "paint undone again", "arc undone", "choice undone", "pick next door undone", "cut next door undone",
-    "paint next door undone", "Detail undone", "Detail within Paint into undone",
+    "pick undone", "several picks undone", "cut undone", "cut redone", "cut undone again", "paint undone",
+    "paint redone", "paint undone again", "arc undone", "choice undone", "pick next door undone",
+    "cut next door undone", "paint next door undone", "Detail undone", "Detail within Paint into undone",
 ])  # fmt: skip
 def test_undo_and_redo_are_exact(seen, name):
     assert seen[name] == []

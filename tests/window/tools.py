@@ -33,7 +33,8 @@ def steps():
     yield 0.5
     yield from by_submenu()
     yield from hidden()
-    for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted, switched_off):
+    for scene in (picked, picked_again, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted,
+                  switched_off):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
 
@@ -98,6 +99,26 @@ def picked():
     yield from pointer.press(*pointer.in_view(0.1, 0.1))  # beside everything: what a click means without a tool
     note("after Enter", chosen())
     yield from undo_to("pick undone", before, 2)
+
+
+def picked_again():
+    """Several clicks; then what the panel of what was done last and Repeat Last make of them."""
+    places = pointer.surface_places(spot())
+    before = snapshot()
+    yield from pointer.search("Pick Parts")
+    yield from pointer.press(*places[number("Part 06")])
+    for place in (places[number("Part 03")], on_arc("Part 02"), places[number("Part 06")]):
+        yield from pointer.press(*place, "Shift_L")
+    yield from pointer.tap("Return")
+    yield 0.2
+    note("picked several", chosen())
+    in_view(lambda: bpy.ops.ed.undo_redo("EXEC_DEFAULT", True))
+    note("picked several, adjusted", chosen())
+    choose("Part 01")
+    bpy.ops.ed.undo_push(message="ready")
+    in_view(lambda: bpy.ops.screen.repeat_last("EXEC_DEFAULT", True))
+    note("picked several, repeated", chosen())
+    yield from undo_to("several picks undone", before, 3)
 
 
 def cut():

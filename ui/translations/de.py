@@ -530,6 +530,11 @@ TEXTS = {
         "Die Stelle liegt auf einem Bogen des Graphen; sonst auf der Oberfläche",
     "Add the part to those that are chosen, or take it away again":
         "Das Teil zu den gewählten hinzunehmen oder wieder herausnehmen",
+    "Number of the part that becomes the active one; 0 for the part at the location":
+        "Nummer des Teils, das das aktive wird; 0 für das Teil an der Stelle",
+    "Marked": "Angekreuzt",
+    "With a number of a part: numbers of the parts that are marked, separated by commas":
+        "Zusammen mit der Nummer eines Teils: Nummern der angekreuzten Teile, durch Kommas getrennt",
     "Location": "Position",
     "Make one part of the parts marked in the list; it takes the name of the active one":
         "Aus den in der Liste angekreuzten Teilen eines machen; es erhält den Namen des aktiven",
@@ -892,6 +897,8 @@ TEXTS = {
         "Der Prozess, der {name} zerlegte, endete unerwartet ({reason}); nichts wurde geändert. Bitte noch einmal "
         "versuchen, und es melden, wenn das wieder geschieht.",
     "Cancelled; nothing was changed": "Abgebrochen; nichts wurde geändert",
+    "{command} was ended with its window; nothing was changed.":
+        "{command} wurde mit seinem Fenster beendet; nichts wurde geändert.",
     "{name} is gone; its parts were computed in vain.":
         "{name} ist nicht mehr da; seine Teile wurden vergeblich berechnet.",
     "{name} was changed while its parts were computed. Decompose it again.":
@@ -1012,6 +1019,8 @@ TEXTS = {
         "sind aber nicht mit ihnen zu verbinden}: dort bleiben Teile offen",
     "The active object is not a part that was separated from another one":
         "Das aktive Objekt ist kein Teil, das von einem anderen abgetrennt wurde",
+    "The object that {name} was separated from is not in this file.":
+        "Das Objekt, von dem {name} abgetrennt wurde, ist nicht in dieser Datei.",
     "Seams around {n} {n:part|parts}": "Nähte um {n} {n:Teil|Teile}",
     "The seams are yours alone again": "Es sind wieder nur die eigenen Nähte da",
     "{n} {n:part is a face set|parts are face sets}": "{n} {n:Teil ist ein Face Set|Teile sind Face Sets}",

@@ -503,6 +503,11 @@ TEXTS = {
     "On the Graph": "在图上",
     "The location is on an arc of the graph; without it, on the surface": "位置在图的弧上；禁用时在表面上",
     "Add the part to those that are chosen, or take it away again": "将部件添加到所选部件中，或从中移除",
+    "Number of the part that becomes the active one; 0 for the part at the location":
+        "成为活动部件的部件编号；0 表示该位置处的部件",
+    "Marked": "已标记",
+    "With a number of a part: numbers of the parts that are marked, separated by commas":
+        "与部件编号一起使用：已标记部件的编号，以逗号分隔",
     "Location": "位置",
     "Make one part of the parts marked in the list; it takes the name of the active one":
         "将列表中勾选的部件合并为一个；采用活动部件的名称",
@@ -800,6 +805,8 @@ TEXTS = {
     "if that happens again.":
         "分解 {name} 的进程意外终止（{reason}）；未更改任何内容。请重试；如果再次发生，请报告。",
     "Cancelled; nothing was changed": "已取消；未更改任何内容",
+    "{command} was ended with its window; nothing was changed.":
+        "{command}已随其窗口结束；未作任何更改。",
     "{name} is gone; its parts were computed in vain.": "{name} 已不存在；其部件的计算结果未被使用。",
     "{name} was changed while its parts were computed. Decompose it again.":
         "{name} 在计算部件期间被更改。请重新分解。",
@@ -895,6 +902,8 @@ TEXTS = {
     "with them}: parts stay open there":
         "{n} 个开放边顶点与其他顶点重合，但无法相连：部件在该处保持开放",
     "The active object is not a part that was separated from another one": "活动物体不是从其他物体分离出的部件",
+    "The object that {name} was separated from is not in this file.":
+        "{name}所分离自的物体不在此文件中。",
     "Seams around {n} {n:part|parts}": "{n} 个部件周围的缝合边",
     "The seams are yours alone again": "现在只剩您自己的缝合边",
     "{n} {n:part is a face set|parts are face sets}": "{n} 个部件现为面组",

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input: one sentence each, and the scene is as it was."""
 
+import importlib
 import re
 
 import bpy
 import numpy as np
 import pytest
 import shapes
-from snapshot import snapshot
+from snapshot import activate, snapshot
 
 
 def refused(match, **arguments):
@@ -165,6 +166,65 @@ def test_overridden_data(obj, tmp_path):
     bpy.context.scene.collection.objects.link(override)
     bpy.context.view_layer.objects.active = override
     refused("override")
+
+
+def separated_elsewhere(path, kind, name):
+    """The first piece of another file, linked alone, or with its collection and without its original."""
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate(caps=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(path), link=True) as (_, to):
+        setattr(to, kind, [name])
+    scene = bpy.context.scene.collection
+    (loaded,) = getattr(to, kind)
+    (scene.objects if kind == "objects" else scene.children).link(loaded)
+    return bpy.data.objects["Tree Part 01"]
+
+
+@pytest.mark.parametrize("overridden", [False, True])
+@pytest.mark.parametrize(("kind", "name"), [("objects", "Tree Part 01"), ("collections", "Parts of Tree")])
+def test_a_piece_of_another_file_is_said_to_be_one(obj, tmp_path, package, kind, name, overridden):
+    """It was said that it is no part that was separated, and to decompose it first. Made local, it can be checked."""
+    piece = separated_elsewhere(tmp_path / "library.blend", kind, name)
+    if overridden and kind == "objects":
+        piece = piece.override_create()
+        bpy.context.scene.collection.objects.link(piece)
+    elif overridden:
+        whole = bpy.data.collections[name].override_hierarchy_create(bpy.context.scene, bpy.context.view_layer)
+        piece = next(item for item in whole.objects if item.name == "Tree Part 01")
+    activate(piece)
+    why = "is a library override" if overridden else "is linked from .*library.blend"
+    for command in ("check_pieces", "select_faults", "repair_piece", "separate", "merge", "hulls", "rigid_bodies"):
+        with pytest.raises(RuntimeError, match=f"Tree Part 01 {why}.*Make it local"):
+            getattr(bpy.ops.reeb_parts, command)()
+    no_original = r"The object that Tree Part 01 was separated from is not in this file\."
+    with pytest.raises(RuntimeError, match=no_original):
+        bpy.ops.reeb_parts.show_original()
+    panel = importlib.import_module(f"{package}.ui.use_panel").REEB_PARTS_PT_piece
+    assert panel.poll(bpy.context)
+    bpy.ops.object.make_local(type="SELECT_OBDATA" if kind == "objects" else "ALL")
+    local = bpy.data.objects["Tree Part 01", None]
+    assert local.override_library is None
+    activate(local)
+    assert bpy.ops.reeb_parts.check_pieces() == {"FINISHED"}
+    for command in ("show_original", "rigid_bodies"):
+        with pytest.raises(RuntimeError, match=no_original):
+            getattr(bpy.ops.reeb_parts, command)()
+
+
+def test_a_selected_piece_of_another_file_is_left_out_of_checks_and_named(obj, tmp_path, capfd):
+    linked = separated_elsewhere(tmp_path / "library.blend", "objects", "Tree Part 01")
+    own = linked.copy()
+    own.data = linked.data.copy()
+    own.name = "Own"
+    bpy.context.scene.collection.objects.link(own)
+    activate(own)
+    linked.select_set(True)
+    assert bpy.ops.reeb_parts.check_pieces() == {"FINISHED"}
+    out = capfd.readouterr().out
+    assert re.search("Warning: Tree Part 01 is linked from .*library.blend", out)
+    assert "1 part is closed" in out
 
 
 def test_parameters_out_of_range_are_clipped_by_blender(obj):

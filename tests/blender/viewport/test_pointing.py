@@ -67,6 +67,17 @@ def test_extending_adds_and_takes_away(obj, result):
     assert {part.number for part in result.parts if part.selected} == set(wanted) - {wanted[1]}
 
 
+def test_what_several_picks_have_chosen_is_chosen_by_number(obj, result):
+    first, second, third = (part.number for part in result.parts[:3])
+    bpy.ops.reeb_parts.pick(number=first, marked=f"{second}, {third}")
+    assert result.parts[result.active].number == first
+    assert [part.number for part in result.parts if part.selected] == [second, third]
+    before = snapshot()
+    with pytest.raises(RuntimeError, match=r"There is no part with the number 99\."):
+        bpy.ops.reeb_parts.pick(number=first, marked="99")
+    assert snapshot() == before
+
+
 @pytest.mark.parametrize("matrix", [
     Matrix(), Matrix.Translation((3, -1, 2)) @ Matrix.Rotation(0.7, 4, "X") @ Matrix.Diagonal((2, 0.5, 1, 1)),
     Matrix.Diagonal((-1, 1, 1, 1)),

@@ -18,7 +18,7 @@ def digest(package):
     """The function that tells objects which somebody has worked on from those that are as they were made."""
     load = importlib.import_module
     around = load(f"{package}.scene.ours.surroundings").Surroundings
-    return lambda item: load(f"{package}.scene.ours.object_digest").digest(item, around.now())
+    return lambda item: load(f"{package}.scene.ours.made_objects")._digest(item, around.now())
 
 
 @pytest.fixture

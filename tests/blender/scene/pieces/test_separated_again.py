@@ -56,7 +56,6 @@ WORK = {
     "object color": lambda piece: setattr(piece, "color", (1, 0, 0, 1)),
     "not in renders": lambda piece: setattr(piece, "hide_render", True),
     "lock": lambda piece: setattr(piece, "lock_location", (True, True, True)),
-    "collection": lambda piece: bpy.context.scene.collection.objects.link(piece),
     "asset": lambda piece: piece.asset_mark(),
     "asset of the mesh": lambda piece: piece.data.asset_mark(),
     "name of the mesh": lambda piece: setattr(piece.data, "name", "Mine"),

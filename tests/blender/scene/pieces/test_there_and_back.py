@@ -358,6 +358,51 @@ def test_pieces_know_their_original_wherever_they_are(obj, make, tree, way):
     assert not other.hide_render or other.hide_get()
 
 
+def linked_to(name, items):
+    """Link objects to a collection, as Shift+M does."""
+    collection = bpy.data.collections.new(name)
+    bpy.context.scene.collection.children.link(collection)
+    for item in items:
+        collection.objects.link(item)
+
+
+MAKERS = {"separate": {"joints": "DOWEL"}, "hulls": {}, "armature": {}, "rigid_bodies": {}}
+
+
+def test_what_is_linked_to_a_collection_is_made_anew_and_linked_there(obj):
+    """That counted as work: a second set of pieces was made beside the first."""
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    for name, style in MAKERS.items():
+        known = set(bpy.data.objects)
+        activate(obj)
+        getattr(bpy.ops.reeb_parts, name)(**style)
+        made = [item for item in bpy.data.objects if item not in known]
+        assert made
+        linked_to("All", made)
+        linked_to("Some", made[::2])
+        before = {item.name: {place.name for place in item.users_collection} for item in bpy.data.objects}
+        activate(obj)
+        getattr(bpy.ops.reeb_parts, name)(**style)
+        assert set(made).isdisjoint(bpy.data.objects), name
+        assert {item.name: {place.name for place in item.users_collection} for item in bpy.data.objects} == before
+        for collection in ("All", "Some"):
+            bpy.data.collections.remove(bpy.data.collections[collection])
+
+
+def test_the_collection_that_pieces_are_linked_to_stays_excluded(obj):
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate()
+    linked_to("Mine", pieces_of())
+    bpy.context.view_layer.layer_collection.children["Mine"].exclude = True
+    for command in (bpy.ops.reeb_parts.show_pieces, bpy.ops.reeb_parts.separate):
+        activate(obj)
+        command()
+        assert bpy.context.view_layer.layer_collection.children["Mine"].exclude
+        bpy.context.view_layer.update()
+        assert [piece.visible_get() for piece in pieces_of()] == [True] * 3
+    assert set(bpy.data.collections["Mine"].objects) == set(pieces_of())
+
+
 def test_fewer_hulls_lie_where_more_were_moved(obj):
     """One takes the places of several: it was to be put there once for each, which Blender refuses."""
     bpy.ops.reeb_parts.decompose(n_parts=2, graph=False)

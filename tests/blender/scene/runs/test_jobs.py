@@ -267,6 +267,50 @@ def test_who_waits_gets_all_or_what_was_raised(
     assert max(said) == 1.0
 
 
+@pytest.mark.parametrize("waits", [True, False])
+def test_what_other_processes_had_computed_is_not_computed_again(
+        package, jobs, compute, read, parameters, processors, monkeypatch, waits):
+    """After one of them has failed, here or in the window, for lack of a Python that loads NumPy."""
+    processors(2)
+    tree = shapes.tube_tree()
+    given = read(*(shapes.Shape(tree.vertices * scale, tree.faces) for scale in range(1, 9)))
+    workers, here = [], []
+
+    class SecondStops(importlib.import_module(f"{package}.scene.runs.processes").Worker):
+        def __init__(self, own, *more):
+            super().__init__(own, *more)
+            workers.append(self)
+            self.own = own
+            if len(workers) == 2:
+                os.kill(self.pid, signal.SIGSTOP)
+
+    def progress(*_):
+        if len(workers) == 2 and workers[0].ended and workers[1].ended is False:
+            workers[1]._process.kill() if waits else workers[1]._process.terminate()
+            os.kill(workers[1].pid, signal.SIGCONT)
+
+    def decomposition(shape, *more, one=compute.decomposition):
+        here.append(shape)
+        return one(shape, *more)
+
+    monkeypatch.setattr(jobs, "Worker", SecondStops)
+    monkeypatch.setattr(compute, "_KEEP", 3)  # as it is
+    monkeypatch.setattr(compute, "decomposition", decomposition)
+    if waits:
+        found = jobs.computed(given, parameters(), progress)
+    else:
+        job = jobs.Job(given, parameters())
+        job.start()
+        until(lambda: progress() or job.poll() or not job.running)
+        found = job.result
+    assert len(workers[0].own) == len(workers[1].own) == 4
+    assert here == workers[1].own
+    compute.forget()
+    expected = compute.compute_all(given, parameters(), lambda *_: None)
+    assert [arrays_of(o.decomposition) for o in found] == [arrays_of(o.decomposition) for o in expected]
+    assert all(outcome.seconds > 0.0 for outcome in found)
+
+
 def test_the_folder_is_private_and_holds_what_is_computed_only(jobs, read, parameters):
     job = started(jobs, read(shapes.subdivide(shapes.tube_tree())), parameters())
     (folder,) = folders()
