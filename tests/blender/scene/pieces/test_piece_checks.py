@@ -19,6 +19,20 @@ def checks(package):
     return importlib.import_module(f"{package}.scene.pieces.piece_checks")
 
 
+def test_what_is_enclosed_does_not_depend_on_which_corner_of_a_face_is_first(make, checks):
+    """Booleans turn quads round that they leave whole, and Blender folds a bent one along its other diagonal then."""
+    octants = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float64)
+    points = octants + 0.2 * np.random.default_rng(0).random((8, 3))
+    faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    bent = [make((points, np.roll(faces, turn, axis=1)), "Bent").data for turn in (0, 1)]
+    folded = [volume(mesh) for mesh in bent]
+    assert abs(folded[0] - folded[1]) > 1e-3
+    found = [checks.check(mesh, np.eye(3))[0].volume for mesh in bent]
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
+    # Of the two ways to fold it each quad is as far from one as from the other.
+    assert found[0] == pytest.approx(np.mean(folded), rel=1e-6)
+
+
 def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
     """Two octahedra of volume 4/3 that run into each other, a face taken off, a fin, and all of it turned round."""
     octahedron = shapes.octahedron()
