@@ -15,6 +15,9 @@ from .modes import check_mode
 
 _Found = TypeVar("_Found")
 
+# What Blender makes meshes of that look the same.
+_CONVERTIBLE = {"CURVE", "SURFACE", "FONT", "META"}
+
 
 def chosen_objects(
     context: bpy.types.Context, report: Callable[[set[str], str], None] | None = None, one_per_mesh: bool = True
@@ -106,6 +109,9 @@ def check_object(obj: bpy.types.Object | None) -> None:
                 rpt_("{name} is linked from {source}, which is not there or does not have it any more. Bring it back "
                      "and open the file again.").format(name=data.name, source=_source(data))
             )
+    if obj.type in _CONVERTIBLE:
+        raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and "
+                              "try again.").format(name=obj.name, kind=_kind(obj)))
     if obj.type != "MESH":
         raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Select a mesh and try again.").format(
             name=obj.name, kind=_kind(obj)))

@@ -788,6 +788,12 @@ TEXTS = {
         "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
     "{name} is not a mesh but of the type {kind}. Select a mesh and try again.":
         "{name} ist kein Mesh, sondern vom Typ {kind}. Bitte ein Mesh auswählen und erneut versuchen.",
+    "{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again.":
+        "{name} ist kein Mesh, sondern vom Typ {kind}. Bitte umwandeln (Objekt > Konvertieren > Mesh) und erneut "
+        "versuchen.",
+    "The faces of {name} are made by its modifiers. Apply these (Object > Convert > Mesh) and try again.":
+        "Die Flächen von {name} stammen von seinen Modifikatoren. Bitte anwenden (Objekt > Konvertieren > Mesh) und "
+        "erneut versuchen.",
     "{name} is a library override and its mesh cannot be written. Make it local (Object > Library Override > Make "
     "Local) and try again.":
         "{name} ist eine Bibliotheksüberschreibung, ihr Mesh kann nicht geändert werden. Bitte lokal machen (Objekt > "
