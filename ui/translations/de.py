@@ -991,6 +991,7 @@ TEXTS = {
     "{name} has nothing of the kind.": "{name} hat nichts dergleichen.",
     "{n} {n:face|faces} selected": "{n} {n:Fläche|Flächen} ausgewählt",
     "Other objects share the mesh of {name}": "Andere Objekte teilen sich das Mesh von {name}",
+    "Nothing has to be repaired": "Es gibt nichts zu reparieren",
     "Nothing of {name} can be repaired": "An {name} lässt sich nichts reparieren",
     "{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there":
         "{n} {n:Grenze verläuft|Grenzen verlaufen} an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen oder "

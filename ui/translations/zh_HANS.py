@@ -879,6 +879,7 @@ TEXTS = {
     "{name} has nothing of the kind.": "{name} 没有此类内容。",
     "{n} {n:face|faces} selected": "已选择 {n} 个面",
     "Other objects share the mesh of {name}": "其他物体共用 {name} 的网格",
+    "Nothing has to be repaired": "没有需要修复的内容",
     "Nothing of {name} can be repaired": "{name} 没有可修复之处",
     "{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there":
         "{n} 条边界沿面分割：平滑切口会在该处撕裂部件或与部件相交",

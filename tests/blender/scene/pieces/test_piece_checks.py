@@ -77,7 +77,7 @@ def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
     check_undo(bpy.ops.reeb_parts.repair_piece)
     piece = pieces_of()[0]
     assert borders(piece.data) == (set(), 0)
-    with pytest.raises(RuntimeError, match="can be repaired"):
+    with pytest.raises(RuntimeError, match="Nothing has to be repaired"):
         bpy.ops.reeb_parts.repair_piece()
     piece.data.flip_normals()
     bpy.ops.reeb_parts.repair_piece()
@@ -138,6 +138,24 @@ def test_all_selected_pieces_are_repaired(obj, checks):
     assert not any(checks.kept(piece).sound for piece in pieces_of())
     assert bpy.ops.reeb_parts.repair_piece() == {"FINISHED"}
     assert all(checks.kept(piece).sound for piece in pieces_of())
+
+
+def test_of_what_cannot_be_repaired_only_what_is_wrong_is_named(obj):
+    """With sound pieces among them it was said of all that nothing can be repaired."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True)
+    first, *others = pieces_of()
+    bm = bmesh.new()
+    bm.from_mesh(first.data)
+    a, b = bm.edges[:][0].verts  # of a fin, which no step of the repair takes off
+    bm.faces.new([a, b, bm.verts.new((0.0, 0.0, 9.0))])
+    bm.to_mesh(first.data)
+    bm.free()
+    for piece in (first, *others):
+        piece.select_set(True)
+    bpy.context.view_layer.objects.active = first
+    with pytest.raises(RuntimeError, match=f"Nothing of {first.name} can be repaired"):
+        bpy.ops.reeb_parts.repair_piece()
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0])
