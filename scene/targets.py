@@ -12,11 +12,9 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from .errors import SceneError
 from .modes import check_mode
+from .ours.made_objects import ROLE
 
 _Found = TypeVar("_Found")
-
-# What Blender makes meshes of that look the same.
-_CONVERTIBLE = {"CURVE", "SURFACE", "FONT", "META"}
 
 
 def chosen_objects(
@@ -109,9 +107,8 @@ def check_object(obj: bpy.types.Object | None) -> None:
                 rpt_("{name} is linked from {source}, which is not there or does not have it any more. Bring it back "
                      "and open the file again.").format(name=data.name, source=_source(data))
             )
-    if obj.type in _CONVERTIBLE:
-        raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and "
-                              "try again.").format(name=obj.name, kind=_kind(obj)))
+    if can_become_mesh(obj):
+        raise SceneError(to_become_mesh(obj))
     if obj.type != "MESH":
         raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Select a mesh and try again.").format(
             name=obj.name, kind=_kind(obj)))
@@ -132,6 +129,17 @@ def check_object(obj: bpy.types.Object | None) -> None:
             rpt_("The mesh of {name} is being edited through another object. Leave Edit Mode there first.").format(
                 name=obj.name)
         )
+
+
+def can_become_mesh(obj: bpy.types.Object) -> bool:
+    """Whether Blender makes a mesh of an object that looks the same; not of the arcs of a graph."""
+    return obj.type in {"CURVE", "SURFACE", "FONT", "META"} and ROLE not in obj
+
+
+def to_become_mesh(obj: bpy.types.Object) -> str:
+    """What to do with an object that can become a mesh."""
+    return rpt_("{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again."
+                ).format(name=obj.name, kind=_kind(obj))
 
 
 def _source(data: bpy.types.ID) -> str:

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from snapshot import snapshot
+from snapshot import activate, snapshot
 
 
 def refused(match, **arguments):
@@ -34,6 +34,13 @@ def test_what_can_be_made_a_mesh_of(add):
     group, name = add.split(".")
     getattr(getattr(bpy.ops, group), name)()
     refused(r"Convert it \(Object > Convert > Mesh\)")
+
+
+def test_the_arcs_of_a_graph_are_not_to_become_a_mesh(obj):
+    bpy.ops.reeb_parts.decompose()
+    (arcs,) = [item for item in obj.children if item.type == "CURVE"]
+    activate(arcs)
+    refused("not a mesh but of the type curve. Select a mesh")
 
 
 @pytest.mark.parametrize(("kind", "faces"), [("SKIN", []), ("SCREW", []), ("SOLIDIFY", [(0, 1, 2)])])
