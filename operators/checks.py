@@ -84,9 +84,11 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
         if shared:
             raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=shared))
         found = [piece_repairs.repair(piece, bridge.world_stretch(piece)) for piece in pieces]
+        faulty = [piece.name for piece, (before, _) in zip(pieces, found, strict=True) if not before.sound]
+        if not faulty:
+            raise SceneError(rpt_("Nothing has to be repaired"))
         if all(after == before for before, after in found):
-            raise SceneError(rpt_("Nothing of {name} can be repaired").format(
-                name=", ".join(piece.name for piece in pieces)))
+            raise SceneError(rpt_("Nothing of {name} can be repaired").format(name=", ".join(faulty)))
         report_unsound(self, pieces)
 
 

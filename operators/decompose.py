@@ -53,7 +53,8 @@ class REEB_PARTS_OT_decompose(
             return True
         obj = targets.active_object(context)
         if obj is None or obj.type != "MESH":
-            cls.poll_message_set(rpt_("Select a mesh first"))
+            able = obj is not None and targets.can_become_mesh(obj)
+            cls.poll_message_set(targets.to_become_mesh(obj) if able else rpt_("Select a mesh first"))
             # Scripts are let through, to be told what is wrong in a sentence.
             return bpy.app.background
         if jobs.current is not None:

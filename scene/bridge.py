@@ -15,6 +15,7 @@ import numpy as np
 from ..core.arrays.vectors import cross, lengths
 from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
+from ..core.mesh.polygons import MIN_FACES
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
 from . import targets
@@ -46,6 +47,8 @@ class Shape:
     digest : str
         Equal for equal vertices, triangles and polygons.
     notes : tuple of Sentence
+    problem : Sentence or None
+        Why there are too few faces, where modifiers make those that are seen.
     """
 
     vertices: np.ndarray
@@ -56,6 +59,7 @@ class Shape:
     hints: np.ndarray
     digest: str
     notes: tuple[Sentence, ...]
+    problem: Sentence | None = None
 
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -104,7 +108,8 @@ def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[
     mirror = half_plane(obj, vertices, stretch)
     yield 0.8
     digest = fingerprints.digest(vertices, triangles, polygon)
-    return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0))
+    return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0),
+                 _problem(obj, int(polygon[-1]) + 1 if len(polygon) else 0))
 
 
 def world_stretch(obj: bpy.types.Object) -> np.ndarray:
@@ -165,6 +170,17 @@ def face_centers(obj: bpy.types.Object) -> np.ndarray:
     """Mean of the corners of each face, (p, 3) float64, along the object's axes in units of the world."""
     points = shown_points(obj).astype(np.float64) @ world_stretch(obj).T
     return mesh_arrays.corner_table(obj.data).face_means(points)
+
+
+def _problem(obj: bpy.types.Object, n_faces: int) -> Sentence | None:
+    """What to do where modifiers make the faces that are seen, as Skin, Screw and Geometry Nodes do; else None."""
+    if n_faces >= MIN_FACES or not obj.modifiers:
+        return None
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    if len(seen.polygons) < MIN_FACES:
+        return None
+    return Sentence("The faces of {name} are made by its modifiers. Apply these (Object > Convert > Mesh) and try "
+                    "again.", name=obj.name)
 
 
 def _notes(obj: bpy.types.Object, is_half: bool) -> tuple[Sentence, ...]:

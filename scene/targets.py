@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from .errors import SceneError
 from .modes import check_mode
+from .ours.made_objects import ROLE
 
 _Found = TypeVar("_Found")
 
@@ -106,6 +107,8 @@ def check_object(obj: bpy.types.Object | None) -> None:
                 rpt_("{name} is linked from {source}, which is not there or does not have it any more. Bring it back "
                      "and open the file again.").format(name=data.name, source=_source(data))
             )
+    if can_become_mesh(obj):
+        raise SceneError(to_become_mesh(obj))
     if obj.type != "MESH":
         raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Select a mesh and try again.").format(
             name=obj.name, kind=_kind(obj)))
@@ -131,6 +134,17 @@ def check_object(obj: bpy.types.Object | None) -> None:
 def is_foreign(obj: bpy.types.Object) -> bool:
     """Whether an object is linked from another file, be it overridden."""
     return obj.library is not None or obj.override_library is not None
+
+
+def can_become_mesh(obj: bpy.types.Object) -> bool:
+    """Whether Blender makes a mesh of an object that looks the same; not of the arcs of a graph."""
+    return obj.type in {"CURVE", "SURFACE", "FONT", "META"} and ROLE not in obj
+
+
+def to_become_mesh(obj: bpy.types.Object) -> str:
+    """What to do with an object that can become a mesh."""
+    return rpt_("{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again."
+                ).format(name=obj.name, kind=_kind(obj))
 
 
 def _source(data: bpy.types.ID) -> str:

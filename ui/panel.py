@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from mathutils import Matrix
 
 from ..core.sentence import Count
-from ..scene import modes, store
+from ..scene import modes, store, targets
 from ..scene.graph import graph_objects
 from ..scene.pieces import piece_objects
 from ..scene.result import notes, part_list, part_names
@@ -154,9 +154,13 @@ def _draw_decompose(layout: bpy.types.UILayout, room: Room, again: bool) -> None
 
 def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
     """What there is to do, while there are no parts."""
-    is_mesh = context.object is not None and context.object.type == "MESH"
-    text = (iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is.") if is_mesh
-            else iface_("Select a mesh, then press Decompose."))
+    obj = context.object
+    if obj is not None and obj.type == "MESH":
+        text = iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is.")
+    elif obj is not None and targets.can_become_mesh(obj):
+        text = targets.to_become_mesh(obj)
+    else:
+        text = iface_("Select a mesh, then press Decompose.")
     room.wrapped(layout.column(align=True), text, "INFO")
 
 

@@ -11,6 +11,7 @@ from ..core.sentence import Count
 from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.pieces import cut_list, origins, piece_checks, piece_objects
+from ..scene.reading.placing import length_words
 from .fitting import Room
 from .panel import SubPanel
 
@@ -127,7 +128,7 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
             if found.inside_out:
                 column.label(text=iface_("Inside out"), icon="ERROR")
         if found is not None and found.thinnest is not None:
-            words = iface_("Thinnest place: {width}").format(width=f"{found.thinnest:.4g}")
+            words = iface_("Thinnest place: {width}").format(width=length_words(found.thinnest))
             room.operator(column, "reeb_parts.select_faults", text=words, icon="DRIVER_DISTANCE").kind = "THIN"
         row = room.row(self.layout, iface_("Check", "Operator"), iface_("Repair", "Operator"))
         row.operator("reeb_parts.check_pieces", text="Check")

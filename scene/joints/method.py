@@ -157,8 +157,8 @@ def _spread_shape_keys(mesh: bpy.types.Mesh, made: bpy.types.Mesh) -> None:
     with removed(bpy.data.objects, holder):
         for key in keys.key_blocks:
             new = holder.shape_key_add(name=key.name, from_mix=False)
-            moved = now + (mesh_arrays.read(key.data, "co", np.float32, 3) - before)[nearest]
-            new.data.foreach_set("co", moved.ravel())
+            moved = now + (mesh_arrays.key_points(key) - before)[nearest]
+            mesh_arrays.set_key_points(new, moved)
             for name in ("slider_min", "slider_max", "value", "mute", "vertex_group", "interpolation"):
                 setattr(new, name, getattr(key, name))
         for key in keys.key_blocks:

@@ -13,6 +13,7 @@ from mathutils.bvhtree import BVHTree
 
 from ...core.arrays.indexing import renumbered, stable_order
 from ...core.arrays.vectors import cross
+from ...core.mesh.corners import CornerTable
 from ...core.surface.reach import within_reach
 from .. import transaction
 from ..reading import mesh_arrays
@@ -113,7 +114,8 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
     triangles, face = mesh_arrays.triangles(mesh)
     n_faces = len(mesh.polygons)
-    open_, branching, contrary = _edge_faults(mesh)
+    table = mesh_arrays.corner_table(mesh, points)
+    open_, branching, contrary = _edge_faults(table)
     none = np.zeros(n_faces, bool)
     if not len(triangles):
         return Check(), Faults(none, none, none, none, none)
@@ -131,7 +133,7 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     thinnest, where = _thinnest(tree, places)
     volume = None
     if not (open_[0] or branching[0] or contrary[0]):
-        volume = float(((a - points.mean(axis=0)) * vector).sum() / 6)
+        volume = _enclosed(table)
     found = Check(open_[0], branching[0], contrary[0], int(crossed.sum()), int((crossed & ~by_cap).sum()),
                   bool(tried.all()), volume is not None and volume < 0, volume, thinnest)
     thin = _marked(n_faces, face[[where]] if thinnest is not None else np.empty(0, np.int64))
@@ -160,9 +162,18 @@ def _marked(count: int, indices: np.ndarray) -> np.ndarray:
     return mask
 
 
-def _edge_faults(mesh: bpy.types.Mesh) -> Iterator[tuple[int, np.ndarray]]:
+def _enclosed(table: CornerTable) -> float:
+    """What closed faces enclose; each is taken for a fan around the mean of its corners.
+
+    None of its corners is the first then. Booleans give faces another one, even those that they leave whole, and
+    Blender folds a bent one along another diagonal then.
+    """
+    middles = table.face_means(table.vertices)
+    return float(((middles - table.vertices.mean(axis=0)) * table.face_vectors()).sum() / 3)
+
+
+def _edge_faults(table: CornerTable) -> Iterator[tuple[int, np.ndarray]]:
     """Edges of one face, of more than two, and contrary ones: how many, and which faces are there."""
-    table = mesh_arrays.corner_table(mesh)
     count = table.n_edge_faces
     for wrong in (count == 1, count > 2, table.contrary_edges()):
         yield int(wrong.sum()), _marked(table.n_faces, table.corner_face[wrong[table.corner_edge]])

@@ -37,7 +37,7 @@ def read(mesh: bpy.types.Mesh, n_groups: int | None = None) -> Elements:
     layers = {a.name: Layer(a.data_type, a.domain, mesh_arrays.attribute_values(a))
               for a in mesh.attributes if a.name not in _OTHERWISE}
     for index, key in enumerate(mesh.shape_keys.key_blocks if mesh.shape_keys else ()):
-        layers[f"\0{KEY} {index}"] = Layer(KEY, POINT, mesh_arrays.read(key.data, "co", np.float32, 3))
+        layers[f"\0{KEY} {index}"] = Layer(KEY, POINT, mesh_arrays.key_points(key))
     for layer in mesh.skin_vertices:
         for name, kind, width in _SKIN:
             layers[f"\0{SKIN} {name}"] = Layer(SKIN, POINT, mesh_arrays.read(layer.data, name, kind, width))
@@ -99,10 +99,14 @@ def _resize(mesh: bpy.types.Mesh, elements: Elements) -> None:
     n, skin = len(elements.points), any(layer.kind == SKIN for layer in elements.layers.values())
     with freed(bmesh.new()) as bm:
         # Only from a BMesh shape keys take over the number of vertices, and skin comes; it leaves the names of groups.
-        if mesh.shape_keys or skin:
-            points = bpy.data.meshes.new("Reeb Parts")
-            with removed(bpy.data.meshes, points):
-                points.vertices.add(n)
+        if n and (mesh.shape_keys or skin):
+            keys, points = mesh.copy(), bpy.data.meshes.new("Reeb Parts")
+            with removed(bpy.data.meshes, keys, points):
+                # Blender warns of each key that a BMesh does not know, and of no vertices it learns none.
+                keys.clear_geometry()
+                keys.vertices.add(1)
+                points.vertices.add(n - 1)
+                bm.from_mesh(keys)
                 bm.from_mesh(points)
         if skin:
             bm.verts.layers.skin.verify()
@@ -123,7 +127,7 @@ def _set_layers(mesh: bpy.types.Mesh, elements: Elements, groups: Sequence[str] 
     for name, layer in elements.layers.items():
         values = layer.values
         if layer.kind == KEY:
-            mesh.shape_keys.key_blocks[int(name.rsplit(" ", 1)[1])].data.foreach_set("co", values.ravel())
+            mesh_arrays.set_key_points(mesh.shape_keys.key_blocks[int(name.rsplit(" ", 1)[1])], values)
         elif layer.kind == SKIN:
             mesh.skin_vertices[0].data.foreach_set(name.rsplit(" ", 1)[1], values.ravel())
         elif layer.kind == FREESTYLE:

@@ -326,23 +326,29 @@ def shown_points(obj: bpy.types.Object) -> np.ndarray:
     if keys is None:
         return basis_points(obj.data)
     if obj.show_only_shape_key:
-        return _key_points(obj.active_shape_key)
-    basis = _key_points(keys.reference_key)
+        return key_points(obj.active_shape_key)
+    basis = key_points(keys.reference_key)
     if not keys.use_relative:
         return basis
     mix = basis.copy()
     for key in keys.key_blocks:
         if key.mute or not key.value or key == keys.reference_key:
             continue
-        move = _key_points(key) - _key_points(key.relative_key)
+        move = key_points(key) - key_points(key.relative_key)
         if key.vertex_group in obj.vertex_groups:
             move *= _weights(obj, key.vertex_group)[:, None]
         mix += np.float32(key.value) * move
     return mix
 
 
-def _key_points(key: bpy.types.ShapeKey) -> np.ndarray:
-    return read(key.data, "co", np.float32, 3)
+def key_points(key: bpy.types.ShapeKey) -> np.ndarray:
+    """Positions in a shape key, (n, 3) float32; of its ``data``, Blender takes a thousand times as long."""
+    return read(key.points, "co", np.float32, 3)
+
+
+def set_key_points(key: bpy.types.ShapeKey, points: np.ndarray) -> None:
+    """Give a shape key its positions, (n, 3) float32."""
+    key.points.foreach_set("co", points.ravel())
 
 
 def _weights(obj: bpy.types.Object, name: str) -> np.ndarray:

@@ -46,6 +46,14 @@ def millimeters() -> float:
     return 1.0 if units.system == "NONE" else 1000.0 * units.scale_length
 
 
+def length_words(length: float) -> str:
+    """A length in units of the world, as Blender says lengths in this scene: "8.363 mm", "329.3 thou"."""
+    units = bpy.context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{length:.4g}"
+    return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=4)
+
+
 def _is_evaluated(obj: bpy.types.Object) -> bool:
     """Whether the window's dependency graph has an object."""
     return obj.visible_get() or any(

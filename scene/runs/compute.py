@@ -44,7 +44,7 @@ class Outcome:
     def of(cls, name: str, shape: Shape, found: Decomposition | ReebError, was_known: bool) -> Outcome:
         """The outcome for an object, from what core returned or raised, or from what was known before."""
         if isinstance(found, ReebError):
-            return cls(name, shape, problem=found.args[0])
+            return cls(name, shape, problem=shape.problem or found.args[0])
         return cls(name, shape, found, seconds=0.0 if was_known else sum(found.seconds.values()))
 
 

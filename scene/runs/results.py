@@ -97,6 +97,7 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     kept = 0
     # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
     for user in targets.users(mesh):
+        explode.settle(user)
         if settings.graph and (user == obj or graph_objects.exists(user)):
             kept += draw_graph(context, user, numbered, settings)
         else:

@@ -39,6 +39,15 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     graph_follow.soon(obj)  # what evaluates the object first may be a tool, of which no handler is told
 
 
+def settle(obj: bpy.types.Object) -> None:
+    """Set the slider back to 0 where the modifier was applied or removed: it moves nothing then."""
+    made = obj.reeb_parts_made
+    if made.explode and find(obj) is None:
+        transaction.keep(made, "explode")
+        with property_updates.quiet():
+            made.explode = 0.0
+
+
 def forget(obj: bpy.types.Object) -> None:
     """Take the modifier away and forget what was made of the object; pieces are the user's from now on."""
     modifiers.remove_nodes(obj, OURS)

@@ -11,7 +11,8 @@ import numpy as np
 
 from .. import targets, transaction
 from ..ours import modifiers
-from ..outputs.kept_aside import add_attribute, remove_attribute
+from ..outputs.kept_aside import add_attribute, find_attribute, remove_attribute
+from ..reading import mesh_arrays
 from . import selection
 
 NAME = "Reeb Parts Hide"
@@ -51,8 +52,11 @@ def forget_mesh(mesh: bpy.types.Mesh) -> None:
 
 
 def forget_faces(mesh: bpy.types.Mesh) -> None:
-    """Forget which faces the modifiers leave out, now that there are none."""
+    """Show in all modes the faces that the modifiers left out, now that there are none."""
     transaction.keep_mesh(mesh)
+    found = find_attribute(mesh, ATTRIBUTE, "BOOLEAN", "FACE")
+    if found is not None:
+        selection.hide_faces(mesh, selection.hidden_faces(mesh) & ~mesh_arrays.attribute_values(found))
     remove_attribute(mesh, ATTRIBUTE)
 
 

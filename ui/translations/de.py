@@ -793,6 +793,12 @@ TEXTS = {
         "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
     "{name} is not a mesh but of the type {kind}. Select a mesh and try again.":
         "{name} ist kein Mesh, sondern vom Typ {kind}. Bitte ein Mesh auswählen und erneut versuchen.",
+    "{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again.":
+        "{name} ist kein Mesh, sondern vom Typ {kind}. Bitte umwandeln (Objekt > Konvertieren > Mesh) und erneut "
+        "versuchen.",
+    "The faces of {name} are made by its modifiers. Apply these (Object > Convert > Mesh) and try again.":
+        "Die Flächen von {name} stammen von seinen Modifikatoren. Bitte anwenden (Objekt > Konvertieren > Mesh) und "
+        "erneut versuchen.",
     "{name} is a library override and its mesh cannot be written. Make it local (Object > Library Override > Make "
     "Local) and try again.":
         "{name} ist eine Bibliotheksüberschreibung, ihr Mesh kann nicht geändert werden. Bitte lokal machen (Objekt > "
@@ -992,6 +998,7 @@ TEXTS = {
     "{name} has nothing of the kind.": "{name} hat nichts dergleichen.",
     "{n} {n:face|faces} selected": "{n} {n:Fläche|Flächen} ausgewählt",
     "Other objects share the mesh of {name}": "Andere Objekte teilen sich das Mesh von {name}",
+    "Nothing has to be repaired": "Es gibt nichts zu reparieren",
     "Nothing of {name} can be repaired": "An {name} lässt sich nichts reparieren",
     "{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there":
         "{n} {n:Grenze verläuft|Grenzen verlaufen} an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen oder "

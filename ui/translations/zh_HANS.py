@@ -725,6 +725,10 @@ TEXTS = {
     "There is no active object. Select a mesh and try again.": "没有活动物体。请选择一个网格并重试。",
     "{name} is not a mesh but of the type {kind}. Select a mesh and try again.":
         "{name} 不是网格，而是 {kind} 类型。请选择一个网格并重试。",
+    "{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again.":
+        "{name} 不是网格，而是 {kind} 类型。请将其转换（物体 > 转换 > 网格）并重试。",
+    "The faces of {name} are made by its modifiers. Apply these (Object > Convert > Mesh) and try again.":
+        "{name} 的面由其修改器生成。请应用这些修改器（物体 > 转换 > 网格）并重试。",
     "{name} is a library override and its mesh cannot be written. Make it local (Object > Library Override > Make "
     "Local) and try again.":
         "{name} 是库重写，其网格无法写入。请将其转为本地项（物体 > 库重写 > 转为本地项）并重试。",
@@ -882,6 +886,7 @@ TEXTS = {
     "{name} has nothing of the kind.": "{name} 没有此类内容。",
     "{n} {n:face|faces} selected": "已选择 {n} 个面",
     "Other objects share the mesh of {name}": "其他物体共用 {name} 的网格",
+    "Nothing has to be repaired": "没有需要修复的内容",
     "Nothing of {name} can be repaired": "{name} 没有可修复之处",
     "{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there":
         "{n} 条边界沿面分割：平滑切口会在该处撕裂部件或与部件相交",

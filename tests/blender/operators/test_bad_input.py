@@ -29,6 +29,44 @@ def test_not_a_mesh(scene):
     refused("not a mesh")
 
 
+@pytest.mark.parametrize("add", ["object.text_add", "object.metaball_add", "curve.primitive_bezier_circle_add",
+                                 "surface.primitive_nurbs_surface_sphere_add"])  # fmt: skip
+def test_what_can_be_made_a_mesh_of(add):
+    group, name = add.split(".")
+    getattr(getattr(bpy.ops, group), name)()
+    refused(r"Convert it \(Object > Convert > Mesh\)")
+
+
+def test_the_arcs_of_a_graph_are_not_to_become_a_mesh(obj):
+    bpy.ops.reeb_parts.decompose()
+    (arcs,) = [item for item in obj.children if item.type == "CURVE"]
+    activate(arcs)
+    refused("not a mesh but of the type curve. Select a mesh")
+
+
+@pytest.mark.parametrize(("kind", "faces"), [("SKIN", []), ("SCREW", []), ("SOLIDIFY", [(0, 1, 2)])])
+def test_faces_that_modifiers_make(make, kind, faces):
+    """All that is seen of such a model, which was said to have no faces, or to be too small."""
+    obj = make(([(0, 0, 0), (1, 0, 0), (0, 0, 1)], faces))
+    if not faces:
+        obj.data.edges.add(2)
+        obj.data.edges.foreach_set("vertices", [0, 1, 1, 2])
+    obj.modifiers.new("Made", kind)
+    if kind == "SKIN":
+        with bpy.context.temp_override(object=obj):
+            bpy.ops.object.modifier_remove(modifier="Made")
+            bpy.ops.object.modifier_add(type=kind)
+    bpy.context.view_layer.update()
+    refused("faces of Tree are made by its modifiers")
+    bpy.ops.object.convert(target="MESH")
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+
+
+def test_modifiers_that_make_no_faces_either(make):
+    make(([(0, 0, 0), (1, 0, 0)], [])).modifiers.new("Array", "ARRAY")
+    refused("no faces")
+
+
 def test_no_faces(make):
     make(([(0, 0, 0), (1, 0, 0)], []))
     refused("no faces")

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which settings of Separate are shown, in its panel and after it."""
 
+import importlib
+
 import bpy
+import pytest
 
 
 def names():
@@ -24,3 +27,14 @@ def test_all_settings_are_shown_where_all_count():
     use.caps, use.fit_bed, use.joints = True, True, "ROUND"
     assert sorted(use.rows) == sorted(names())
     assert use.rows[:2] == ["which", "cut"]
+
+
+@pytest.mark.parametrize(("system", "scale", "words"), [
+    ("METRIC", 1.0, "8.363 mm"), ("METRIC", 0.001, "8.363 µm"), ("IMPERIAL", 1.0, "329.3 thou"),
+    ("NONE", 1.0, "0.008363"),
+])  # fmt: skip
+def test_how_thick_a_piece_is_stands_in_the_units_of_the_scene(package, system, scale, words):
+    """A bare 0.008363 stood beside joints in millimeters, in a scene in inches."""
+    units = bpy.context.scene.unit_settings
+    units.system, units.scale_length = system, scale
+    assert importlib.import_module(f"{package}.ui.use_panel").length_words(0.008363) == words

@@ -111,6 +111,17 @@ def test_without_custom_normals_none_are_made(obj):
     assert not any(piece.data.has_custom_normals for piece in pieces_of())
 
 
+@pytest.mark.parametrize("style", [{"cut": "FACES"}, {"caps": True}])
+def test_blender_has_nothing_to_warn_of_where_there_are_shape_keys(rich, style, capfd):
+    """It printed a line for each key whenever a mesh was made: thousands on a farm, of a face with all its keys."""
+    bpy.ops.reeb_parts.decompose()
+    capfd.readouterr()
+    bpy.ops.reeb_parts.separate(**KEEP, **style)
+    assert len(pieces_of()[0].data.shape_keys.key_blocks) == 2
+    said = capfd.readouterr()
+    assert "shape-key" not in said.out + said.err
+
+
 @pytest.mark.parametrize("cut", ["SMOOTH", "FACES"])
 def test_a_vertex_group_may_be_empty(obj, cut):
     obj.vertex_groups.new(name="Nobody")

@@ -19,6 +19,20 @@ def checks(package):
     return importlib.import_module(f"{package}.scene.pieces.piece_checks")
 
 
+def test_what_is_enclosed_does_not_depend_on_which_corner_of_a_face_is_first(make, checks):
+    """Booleans turn quads round that they leave whole, and Blender folds a bent one along its other diagonal then."""
+    octants = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float64)
+    points = octants + 0.2 * np.random.default_rng(0).random((8, 3))
+    faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    bent = [make((points, np.roll(faces, turn, axis=1)), "Bent").data for turn in (0, 1)]
+    folded = [volume(mesh) for mesh in bent]
+    assert abs(folded[0] - folded[1]) > 1e-3
+    found = [checks.check(mesh, np.eye(3))[0].volume for mesh in bent]
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
+    # Of the two ways to fold it each quad is as far from one as from the other.
+    assert found[0] == pytest.approx(np.mean(folded), rel=1e-6)
+
+
 def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
     """Two octahedra of volume 4/3 that run into each other, a face taken off, a fin, and all of it turned round."""
     octahedron = shapes.octahedron()
@@ -63,7 +77,7 @@ def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
     check_undo(bpy.ops.reeb_parts.repair_piece)
     piece = pieces_of()[0]
     assert borders(piece.data) == (set(), 0)
-    with pytest.raises(RuntimeError, match="can be repaired"):
+    with pytest.raises(RuntimeError, match="Nothing has to be repaired"):
         bpy.ops.reeb_parts.repair_piece()
     piece.data.flip_normals()
     bpy.ops.reeb_parts.repair_piece()
@@ -124,6 +138,24 @@ def test_all_selected_pieces_are_repaired(obj, checks):
     assert not any(checks.kept(piece).sound for piece in pieces_of())
     assert bpy.ops.reeb_parts.repair_piece() == {"FINISHED"}
     assert all(checks.kept(piece).sound for piece in pieces_of())
+
+
+def test_of_what_cannot_be_repaired_only_what_is_wrong_is_named(obj):
+    """With sound pieces among them it was said of all that nothing can be repaired."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True)
+    first, *others = pieces_of()
+    bm = bmesh.new()
+    bm.from_mesh(first.data)
+    a, b = bm.edges[:][0].verts  # of a fin, which no step of the repair takes off
+    bm.faces.new([a, b, bm.verts.new((0.0, 0.0, 9.0))])
+    bm.to_mesh(first.data)
+    bm.free()
+    for piece in (first, *others):
+        piece.select_set(True)
+    bpy.context.view_layer.objects.active = first
+    with pytest.raises(RuntimeError, match=f"Nothing of {first.name} can be repaired"):
+        bpy.ops.reeb_parts.repair_piece()
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0])

@@ -127,6 +127,18 @@ def test_clear_removes_it(obj):
     assert not bpy.data.node_groups
 
 
+def test_after_the_modifier_was_applied_the_slider_begins_at_zero_again(obj):
+    """It went on saying 0.5 beside parts that it did not move."""
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    obj.reeb_parts_made.explode = 0.5
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    assert obj.reeb_parts_made.explode == 0.5
+    bpy.ops.object.modifier_apply(modifier="Reeb Parts Explode")
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    assert obj.reeb_parts_made.explode == 0.0
+    assert not obj.modifiers
+
+
 def test_it_needs_no_output(obj):
     bpy.ops.reeb_parts.decompose(face_attribute=False)
     obj.reeb_parts_made.explode = 1.0

@@ -71,6 +71,28 @@ def test_all_objects_of_a_mesh_hide_together_and_clear_takes_it_back(obj, result
     assert not [group for group in bpy.data.node_groups if "reeb_parts_hide" in group]
 
 
+@pytest.mark.parametrize("way", ["hide", "isolate"])
+def test_clear_shows_hidden_parts_in_edit_mode_too(obj, way):
+    """They were seen in Object Mode, and in Edit Mode all but one part of the mesh was gone."""
+    before = snapshot()["meshes"][obj.data.name]["flags"]
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    choose(obj.data.reeb_parts, 1)
+    getattr(bpy.ops.reeb_parts, way)()
+    assert any(polygon.hide for polygon in obj.data.polygons)
+    bpy.ops.reeb_parts.clear()
+    assert snapshot()["meshes"][obj.data.name]["flags"] == before
+
+
+def test_clear_leaves_hidden_what_was_hidden_in_edit_mode_since(obj, result):
+    numbers_ = numbers(obj.data)
+    choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    mine = int(np.flatnonzero(numbers_ == result.parts[2].number)[0])
+    obj.data.polygons[mine].hide = True
+    bpy.ops.reeb_parts.clear()
+    assert [polygon.index for polygon in obj.data.polygons if polygon.hide] == [mine]
+
+
 def test_pieces_of_hidden_parts_are_seen(obj, result):
     count = len(result.parts)
     choose(result, 1)
