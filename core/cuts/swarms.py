@@ -141,7 +141,7 @@ def _extents(
     moments = np.zeros((len(area), 3, 3))
     for i, j in ((0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)):  # the lower half is all that eigvalsh reads
         moments[:, i, j] = np.bincount(piece, weight * (points[:, :, i] * points[:, :, j]).sum(axis=1), len(area))
-    # Both of the area's roots: a second moment over the area is a squared length, and so is the area.
+    # The root of a second moment over the area, in units of the root of the area.
     return np.sqrt(np.maximum(np.linalg.eigvalsh(moments), 0.0)) / np.where(small, area, 1.0)[:, None]
 
 
