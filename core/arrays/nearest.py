@@ -92,6 +92,23 @@ def nearest_before(point: np.ndarray) -> np.ndarray:
     return before
 
 
+def nearest_larger(size: np.ndarray, point: np.ndarray) -> np.ndarray:
+    """Link each point but the largest with the nearest of the larger ones; of equally large ones the first is larger.
+
+    Parameters
+    ----------
+    size : (n,) float64
+    point : (n, 3) float64
+
+    Returns
+    -------
+    links : (n - 1, 2) int64
+        A point and the larger one, from the second largest point on.
+    """
+    order = np.argsort(-size, kind="stable")
+    return np.stack([order, order[nearest_before(point[order])]], axis=1)[1:]
+
+
 def _nearest_before(point: np.ndarray) -> np.ndarray:
     """What ``nearest_before`` returns, of n points in different places, one or more."""
     before, distance = np.full(len(point), -1), np.full(len(point), np.inf)

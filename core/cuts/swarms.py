@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import last_of_each, sums_by
-from ..arrays.nearest import nearest, nearest_before, search_tree
+from ..arrays.nearest import nearest, nearest_larger, search_tree
 from ..arrays.ties import TIE
 from ..mesh.triangles import TriMesh
 from .face_candidates import FaceCandidates
@@ -166,8 +166,7 @@ def _links(area: np.ndarray, center: np.ndarray, swarm: np.ndarray) -> np.ndarra
     area, swarm : (q,). center : (q, 3).
     """
     links = [np.empty((0, 2), np.int64)]
-    order = np.argsort(-area, kind="stable")
     for number in np.unique(swarm[swarm >= 0]):
-        member = order[swarm[order] == number]
-        links.append(np.stack([member, member[nearest_before(center[member])]], axis=1)[1:])
+        member = np.flatnonzero(swarm == number)
+        links.append(member[nearest_larger(area[member], center[member])])
     return np.concatenate(links)

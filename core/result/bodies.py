@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import last_of_each, sums_by
-from ..arrays.nearest import nearest_before
+from ..arrays.nearest import nearest_larger
 from ..mesh.labels import FaceGraph
 from ..surface.preparation import WorkingMesh
 from .component_results import ComponentResult
@@ -59,9 +59,8 @@ class Bodies:
         area = np.bincount(body, mesh.face_weight, joined)
         center = sums_by(body, mesh.face_weight[:, None] * mesh.face_centroids, joined)
         center /= np.where(area > 0, area, 1.0)[:, None]
-        order = np.argsort(-area, kind="stable")
-        order = order[area[order] > 0]  # without those of faces that the copy lacks
-        links = np.stack([order[1:], order[nearest_before(center[order])[1:]]], axis=1)
+        known = np.flatnonzero(area > 0)  # the copy lacks the faces of others
+        links = known[nearest_larger(area[known], center[known])]
         # A face of each body: the nearest to its middle.
         offset = np.linalg.norm(mesh.face_centroids - center[body], axis=1)
         face = last_of_each(body, -offset, count=joined)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The nearest of the points before each one; of equally near ones the first."""
+"""The nearest of the points before each one, of equally near ones the first; and of the larger ones."""
 
 from itertools import product
 
 import numpy as np
 import pytest
 
-from core.arrays.nearest import nearest_before
+from core.arrays.nearest import nearest_before, nearest_larger
 
 RNG = np.random.default_rng(0)
 POINTS = {
@@ -23,3 +23,17 @@ def test_against_all_points_before(name):
     apart = np.linalg.norm(points[:, None] - points, axis=2)
     wanted = [int((row[:k] <= row[:k].min() + 1e-9).argmax()) if k else -1 for k, row in enumerate(apart)]
     assert nearest_before(points).tolist() == wanted
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_links_lead_to_larger_points_and_never_apart(name):
+    points = POINTS[name]
+    size = np.random.default_rng(1).integers(1, 9, len(points)) / 8.0
+    links = nearest_larger(size, points)
+    rank = {point: k for k, point in enumerate(np.lexsort((np.arange(len(points)), -size)).tolist())}
+    assert [rank[a] for a, _ in links.tolist()] == list(range(1, len(points)))
+    for a, b in links.tolist():
+        larger = [c for c in rank if rank[c] < rank[a]]
+        distance = np.linalg.norm(points[larger] - points[a], axis=1)
+        assert rank[b] < rank[a]
+        assert np.linalg.norm(points[b] - points[a]) <= distance.min() + 1e-9
