@@ -41,6 +41,8 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 def settle(obj: bpy.types.Object) -> None:
     """Set the slider back to 0 where the modifier was applied or removed: it moves nothing then."""
+    if not obj.is_property_set("reeb_parts_made"):  # to read it would set it
+        return
     made = obj.reeb_parts_made
     if made.explode and find(obj) is None:
         transaction.keep(made, "explode")
