@@ -55,8 +55,9 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
     def _choose_again(self, mesh: bpy.types.Mesh) -> None:
         """Choose what was chosen when the clicks were over."""
         marked = [int(number) for number in re.findall(r"\d+", self.marked)]
+        known = {part.number for part in mesh.reeb_parts.parts}
         for number in (self.number, *marked):
-            if number not in {part.number for part in mesh.reeb_parts.parts}:
+            if number not in known:
                 raise SceneError(rpt_("There is no part with the number {number}.").format(number=number))
         mark_numbers(mesh, marked)
         make_active(mesh, self.number)
