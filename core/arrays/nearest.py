@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
 from ..processors import n_processors
-from .indexing import first_at_place
+from .indexing import first_at_place, last_of_each
 from .ties import TIE, first_least
 
 # Points in a leaf; SciPy takes 16. With 32, and boxes that are not fitted to their points, medial balls take a
@@ -107,6 +107,15 @@ def nearest_larger(size: np.ndarray, point: np.ndarray) -> np.ndarray:
     """
     order = np.argsort(-size, kind="stable")
     return np.stack([order, order[nearest_before(point[order])]], axis=1)[1:]
+
+
+def nearest_to_middle(group: np.ndarray, point: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """Find the point of each group that is nearest to the middle of the group.
+
+    group : (n,) int64, of each point. point : (n, 3) float64. middle : (k, 3) float64, of each of k groups.
+    Returns (k,) int64; -1 for a group without points.
+    """
+    return last_of_each(group, -np.linalg.norm(point - middle[group], axis=1), count=len(middle))
 
 
 def _nearest_before(point: np.ndarray) -> np.ndarray:

@@ -77,6 +77,17 @@ def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
 
 
+def middles_of_each(
+    index: np.ndarray, points: np.ndarray, weights: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Sum the weights, (n,), of points, (n, 3), by ``index``, (n,), and take the weighted mean of the points.
+
+    Returns (count,) and (count, 3) float64; the mean of no weight is 0.
+    """
+    total = np.bincount(index, weights, count)
+    return total, sums_by(index, weights[:, None] * points, count) / np.where(total > 0, total, 1.0)[:, None]
+
+
 def second_moments_of_each(index: np.ndarray, points: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
     """Sum the weighted products of the coordinates of points, (n, 3), by ``index``, (n,): (count, 3, 3) float64."""
     products = weights[:, None] * (points[:, :, None] * points[:, None, :]).reshape(-1, 9)

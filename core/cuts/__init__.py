@@ -15,7 +15,7 @@ What follows every method, on the caller's faces:
 
 - ``joining``: one hierarchy of those of several pieces
 - ``face_candidates``: what each of the next steps takes and gives
-- ``swarms``: what floats in numbers beside a body, such as leaves, is one part
+- ``swarms``: small pieces that are there in numbers and stand alone, such as leaves, are one part
 - ``symmetric``: candidates made the same on all sides of a symmetric shape
 - ``hinted``: heeds labels that the mesh brings along, such as materials
 - ``settling``: lets merge only what touches

@@ -13,9 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import last_of_each, sums_by
-from ..arrays.nearest import nearest, nearest_larger, search_tree
+from ..arrays.nearest import nearest, nearest_larger, nearest_to_middle, search_tree
 from ..arrays.ties import TIE
+from ..arrays.vectors import middles_of_each
 from ..mesh.triangles import TriMesh
 from .face_candidates import FaceCandidates
 from .hierarchy import Dendrogram, Hierarchy
@@ -93,9 +93,7 @@ def joined_swarms(candidates: FaceCandidates, mesh: TriMesh, polygon: np.ndarray
     if count <= LEAST:
         return candidates
     of_triangle = piece[polygon]
-    area = np.bincount(of_triangle, mesh.face_area, count)
-    center = sums_by(of_triangle, mesh.face_area[:, None] * mesh.face_centroids, count)
-    center /= np.where(area > 0, area, 1.0)[:, None]
+    area, center = middles_of_each(of_triangle, mesh.face_centroids, mesh.face_area, count)
     part = candidates.parts(0.5)
     largest = np.bincount(part[polygon], mesh.face_area).max()
     extent = _extents(mesh, of_triangle, area, center, _are_small(area, largest))
@@ -103,9 +101,7 @@ def joined_swarms(candidates: FaceCandidates, mesh: TriMesh, polygon: np.ndarray
     links = _links(area, center, swarm)
     if not len(links):
         return candidates
-    # A face of each piece: the nearest to its middle.
-    offset = np.linalg.norm(mesh.face_centroids - center[of_triangle], axis=1)
-    face = polygon[last_of_each(of_triangle, -offset, count=count)[links]]
+    face = polygon[nearest_to_middle(of_triangle, mesh.face_centroids, center)[links]]
     hierarchy, label = candidates.hierarchy, candidates.label
     of_candidate = np.full(hierarchy.n_candidates, -1)
     of_candidate[label] = swarm[piece]

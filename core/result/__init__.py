@@ -4,7 +4,7 @@
 From the components to the result:
 
 - ``component_results``: what the stages found on the components
-- ``bodies``: what hangs together by edges and contacts, and what links such bodies
+- ``bodies``: contacts, which make bodies of pieces, and what links these bodies
 - ``votes``: which candidate each of the caller's faces gets
 - ``within_faces``: symmetry within the caller's faces, where these are too large to be mirrored
 - ``slivers``: what is left of parts where cuts moved or sides were mirrored

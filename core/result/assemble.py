@@ -27,7 +27,7 @@ from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
 from ..surface.preparation import WorkingMesh
 from ..symmetry.mirrors import Mirror
-from .bodies import Bodies
+from .bodies import contacts_and_links
 from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
 from .junctions import boundaries, junctions
@@ -92,7 +92,7 @@ def _face_candidates(
     found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
     graph = face_graph_of(given, working)
     found = found.with_rest(working, results)
-    label, contacts = _voted(given, graph, found, results, parameters), Bodies.of(working, results, graph).pairs
+    label, contacts = _voted(given, graph, found, results, parameters), contacts_and_links(working, results, graph)
     candidates = _with_loose_apart(FaceCandidates(graph, contacts, label, found.hierarchy), working)
     if parameters.pieces == TOGETHER:
         candidates = joined_swarms(candidates, working.mesh, working.polygon)
