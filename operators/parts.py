@@ -58,10 +58,11 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
     show_all: bpy.props.BoolProperty(name="Show All", description="Show every face again")
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
-        mesh = obj.data
-        numbers = stored.face_numbers
-        shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
-        _hide(mesh, stored, ~shown)
+        if self.show_all:
+            hidden.show_all(obj.data)
+        else:
+            hidden.isolate(obj.data, np.isin(stored.face_numbers, chosen_numbers(obj.data)))
+        _look_again(obj.data, stored)
 
 
 class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
@@ -71,13 +72,12 @@ class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
     bl_label = "Hide Parts"
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
-        mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
-        _hide(obj.data, stored, selection.hidden_faces(obj.data) | mask)
+        hidden.hide(obj.data, np.isin(stored.face_numbers, chosen_numbers(obj.data)))
+        _look_again(obj.data, stored)
 
 
-def _hide(mesh: bpy.types.Mesh, stored: Stored, mask: np.ndarray) -> None:
-    """Hide faces, (p,) bool, and what the graph has of parts that are hidden as a whole; show all others."""
-    hidden.hide(mesh, mask)
+def _look_again(mesh: bpy.types.Mesh, stored: Stored) -> None:
+    """Show of the graph and of what is pointed at what is seen of the parts, now that others are hidden."""
     pointing.forget()
     hover.clear()  # until the pointer moves, it would stay filled
     for user in users(mesh):

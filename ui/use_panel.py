@@ -86,14 +86,13 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        piece = context.object
-        return piece is not None and (origins.original(piece) is not None or piece_objects.is_from_elsewhere(piece))
+        return context.object is not None and origins.NUMBER in context.object
 
     def draw(self, context: bpy.types.Context) -> None:
         obj = origins.original(context.object)
         room = Room(context)
         if obj is None:
-            self._draw_why_not(room, context.object)
+            self._draw_without_original(room, context.object)
             return
         room.wrapped(self.layout.column(align=True), iface_("A part of {name}").format(name=obj.name), "MESH_DATA")
         several = len(set(origins.originals([context.object, *context.selected_objects]).values())) > 1
@@ -102,12 +101,15 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
         self._draw_check(room, context.object)
         room.operator(self.layout, "reeb_parts.rigid_bodies", text="Make Rigid Bodies", icon="RIGID_BODY")
 
-    def _draw_why_not(self, room: Room, piece: bpy.types.Object) -> None:
-        """Why nothing can be done with a piece of another file."""
+    def _draw_without_original(self, room: Room, piece: bpy.types.Object) -> None:
+        """Why little can be done with a piece whose original is gone, or nothing with one of another file."""
         try:
             targets.check_object(piece)
+            piece_objects.original_of(piece)
         except SceneError as error:
             room.wrapped(self.layout.column(align=True), str(error), "INFO")
+        if not targets.is_foreign(piece):
+            self._draw_check(room, piece)
 
     def _draw_check(self, room: Room, piece: bpy.types.Object) -> None:
         """What a check has found; a click on a line selects it."""

@@ -101,11 +101,6 @@ def original_of(piece: bpy.types.Object) -> bpy.types.Object:
     return obj
 
 
-def is_from_elsewhere(obj: bpy.types.Object) -> bool:
-    """Whether an object is a piece that is linked from another file, be it overridden, without its original."""
-    return NUMBER in obj and targets.is_foreign(obj) and original(obj) is None
-
-
 def separated(obj: bpy.types.Object) -> bpy.types.Object:
     """The object itself if it has parts and pieces of its own, else that from which it was separated, if any."""
     own = store.has_parts(obj) and piece_objects(obj)

@@ -11,27 +11,59 @@ import numpy as np
 
 from .. import targets, transaction
 from ..ours import modifiers
-from ..outputs.kept_aside import add_attribute, find_attribute, remove_attribute
+from ..outputs.kept_aside import PREFIX, add_attribute, find_attribute, keep_aside, remove_attribute
 from ..reading import mesh_arrays
 from . import selection
 
 NAME = "Reeb Parts Hide"
 ATTRIBUTE = "reeb_hidden"  # of faces
 OURS = "reeb_parts_hide"  # on the node group
+_KEPT = f"{PREFIX}_hidden"  # which of these faces the user had hidden before
 
 
 def hide(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
-    """Hide faces and show all others, in every mode; Object Mode. mask : (p,) bool."""
-    selection.hide_faces(mesh, mask)
-    if not mask.any():
+    """Hide faces, in every mode, beside those that are hidden; Object Mode. mask : (p,) bool."""
+    _leave_out(mesh, _ours(mesh) | mask, selection.hidden_faces(mesh) | mask)
+
+
+def isolate(mesh: bpy.types.Mesh, shown: np.ndarray) -> None:
+    """Show faces and hide all others, in every mode; Object Mode. shown : (p,) bool."""
+    _leave_out(mesh, ~shown, ~shown)
+
+
+def show_all(mesh: bpy.types.Mesh) -> None:
+    """Show every face, those that the user hid in Edit Mode, too; Object Mode."""
+    forget_mesh(mesh)
+    selection.hide_faces(mesh, np.zeros(len(mesh.polygons), bool))
+
+
+def _leave_out(mesh: bpy.types.Mesh, ours: np.ndarray, every: np.ndarray) -> None:
+    """Hide some faces, (p,) bool, in Edit Mode and those of ours in Object Mode, too."""
+    users = _hidden_by_user(mesh) & ours
+    selection.hide_faces(mesh, every)
+    if not ours.any():
         forget_mesh(mesh)
         return
     transaction.keep_mesh(mesh)
     name = add_attribute(mesh, ATTRIBUTE if ATTRIBUTE in mesh.attributes else "", ATTRIBUTE, "BOOLEAN", "FACE")
-    mesh.attributes[name].data.foreach_set("value", mask)
+    mesh.attributes[name].data.foreach_set("value", ours)
+    remove_attribute(mesh, _KEPT)
+    if users.any():
+        keep_aside(mesh, users, _KEPT, "BOOLEAN", "FACE")
     for obj in targets.users(mesh):
         _ensure(obj, name)
     mesh.update()
+
+
+def _ours(mesh: bpy.types.Mesh, name: str = ATTRIBUTE) -> np.ndarray:
+    """Whether we hide each face, (p,) bool."""
+    found = find_attribute(mesh, name, "BOOLEAN", "FACE")
+    return np.zeros(len(mesh.polygons), bool) if found is None else mesh_arrays.attribute_values(found)
+
+
+def _hidden_by_user(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Whether each face is hidden, and would be without us, (p,) bool."""
+    return selection.hidden_faces(mesh) & (_ours(mesh, _KEPT) | ~_ours(mesh))
 
 
 def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
@@ -52,12 +84,12 @@ def forget_mesh(mesh: bpy.types.Mesh) -> None:
 
 
 def forget_faces(mesh: bpy.types.Mesh) -> None:
-    """Show in all modes the faces that the modifiers left out, now that there are none."""
+    """Show in all modes the faces that the modifiers left out, now that there are none, but for the user's."""
     transaction.keep_mesh(mesh)
-    found = find_attribute(mesh, ATTRIBUTE, "BOOLEAN", "FACE")
-    if found is not None:
-        selection.hide_faces(mesh, selection.hidden_faces(mesh) & ~mesh_arrays.attribute_values(found))
+    if find_attribute(mesh, ATTRIBUTE, "BOOLEAN", "FACE"):
+        selection.hide_faces(mesh, _hidden_by_user(mesh))
     remove_attribute(mesh, ATTRIBUTE)
+    remove_attribute(mesh, _KEPT)
 
 
 def _ensure(obj: bpy.types.Object, attribute: str) -> None:

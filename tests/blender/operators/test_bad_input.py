@@ -245,6 +245,7 @@ def test_a_piece_of_another_file_is_said_to_be_one(obj, tmp_path, package, kind,
     local = bpy.data.objects["Tree Part 01", None]
     assert local.override_library is None
     activate(local)
+    assert panel.poll(bpy.context)
     assert bpy.ops.reeb_parts.check_pieces() == {"FINISHED"}
     for command in ("show_original", "rigid_bodies"):
         with pytest.raises(RuntimeError, match=no_original):

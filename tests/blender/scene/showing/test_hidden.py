@@ -93,6 +93,26 @@ def test_clear_leaves_hidden_what_was_hidden_in_edit_mode_since(obj, result):
     assert [polygon.index for polygon in obj.data.polygons if polygon.hide] == [mine]
 
 
+@pytest.mark.parametrize("way", ["hide", "isolate"])
+def test_clear_leaves_hidden_what_was_hidden_in_edit_mode_before(obj, result, way):
+    """It was shown with the parts, and in Object Mode it vanished with the first part that was hidden."""
+    of_part = {part: np.flatnonzero(numbers(obj.data) == result.parts[part].number)[:3] for part in (1, 2)}
+    kept = of_part[2] if way == "isolate" else np.concatenate([of_part[1], of_part[2]])
+    everything = seen(obj)
+    for face in kept:
+        obj.data.polygons[face].hide = True
+    first = choose(result, 1)
+    for _ in range(2):  # the second time what is hidden is ours
+        getattr(bpy.ops.reeb_parts, way)()
+    alone = way == "isolate"
+    assert seen(obj) == {number: count for number, count in everything.items() if (number == first) == alone}
+    choose(result, 3)
+    bpy.ops.reeb_parts.hide()
+    bpy.ops.reeb_parts.clear()
+    assert [polygon.index for polygon in obj.data.polygons if polygon.hide] == sorted(kept.tolist())
+    assert not [name for name in obj.data.attributes.keys() if "reeb" in name]  # noqa: SIM118
+
+
 def test_pieces_of_hidden_parts_are_seen(obj, result):
     count = len(result.parts)
     choose(result, 1)
