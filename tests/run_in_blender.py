@@ -26,7 +26,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SPEED = ["tests/window/test_fluid.py", "tests/window/test_hands.py"]
+SPEED = ["tests/window/test_fluid.py"]
 PARTS = {"inside": ["tests/unit/test_everywhere.py", "tests/blender"], "command": ["tests/installed"],
          "window": ["tests/window", *(f"--ignore={path}" for path in SPEED)], "speed": SPEED}
 PACKAGE = "bl_ext.user_default.reeb_parts"

@@ -14,8 +14,8 @@ Blender comes with. The newest of these tries every operator in every situation;
 once and every situation at least once, on diagonals of this table that differ. What this machine has no Python for is
 left out, and said so.
 
-Two steps run at a time, what is timed in the real window alone; what each printed is shown when it ends. A single step,
-or --jobs 1, prints at once.
+One step more runs at a time than there are processors, as those in a real window wait half of the time; what is timed
+in the window runs alone. What each printed is shown when it ends. A single step, or --jobs 1, prints at once.
 """
 
 from __future__ import annotations
@@ -74,10 +74,10 @@ SUITES = {
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: What of their tables the Blenders but the newest try, see tests/diagonal.py.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
-#: Where time is short: what leaves thirds of the operator tests, see there, too, and which: the newest Blender tries
-#: all, as a module or in full, and the older two try all together. Of the unit tests, which.
-THIRDS = "REEB_PARTS_THIRDS"
-BRIEF_THIRDS = {"blender-4.2": "12", "blender-4.5": "0", "blender-5.2": "02", "inside": "1"}
+#: Where time is short: what leaves sixths of the operator tests, see there, too, and which: the newest Blender tries
+#: all, as a module or in full, and the older two try half of them together. Of the unit tests, which.
+SIXTHS = "REEB_PARTS_SIXTHS"
+BRIEF_SIXTHS = {"blender-4.2": "12", "blender-4.5": "0", "blender-5.2": "0235", "inside": "14"}
 BRIEF_WORDS = {"unit-oldest": "test_everywhere or test_models or (test_pipeline and (2005 or 2007))",
                "unit-newest": "not test_pipeline or test_models or not (2005 or 2007)"}
 #: The suites that can run for long, and how many tests in each share that time.
@@ -121,7 +121,8 @@ def main() -> None:
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
     parser.add_argument("--brief", action="store_true", help="try each test in some of the versions only")
     parser.add_argument("--fuzz", type=float, metavar="MINUTES", help="run the harness of tests/fuzz for so long")
-    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="steps at a time, default 2")
+    jobs = (os.cpu_count() or 1) + 1
+    parser.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"steps at a time, default {jobs}")
     arguments = parser.parse_args(ours)
     if unknown := set(arguments.suites) - set(SUITES):
         parser.error(f"no such suite: {', '.join(sorted(unknown))} (there are {', '.join(SUITES)})")
@@ -169,7 +170,7 @@ def _work(name: str, arguments: argparse.Namespace, for_pytest: list[str], scrat
         return partial(_documents, arguments.blender, scratch, for_pytest)
     words, variables = [], {}
     if arguments.brief:
-        variables |= _thirds(name)
+        variables |= _sixths(name)
         if name in BRIEF_WORDS:
             words = ["-k", BRIEF_WORDS[name]]
             _left_out(f"{name}: all but \"{BRIEF_WORDS[name]}\" (--brief)")
@@ -302,12 +303,12 @@ def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path |
     return _pytest("documents", None, scratch, extra, log, BLENDER=blender, BROWSER=browser or "")
 
 
-def _thirds(name: str) -> dict[str, str]:
-    """The variable that leaves thirds of the operator tests of a step, and says so; nothing for other steps."""
-    if name not in BRIEF_THIRDS:
+def _sixths(name: str) -> dict[str, str]:
+    """The variable that leaves sixths of the operator tests of a step, and says so; nothing for other steps."""
+    if name not in BRIEF_SIXTHS:
         return {}
-    _left_out(f"{name}: of tests/blender all but the thirds {', '.join(BRIEF_THIRDS[name])} of 0, 1, 2 (--brief)")
-    return {THIRDS: BRIEF_THIRDS[name]}
+    _left_out(f"{name}: of tests/blender all but the sixths {', '.join(BRIEF_SIXTHS[name])} of 0 to 5 (--brief)")
+    return {SIXTHS: BRIEF_SIXTHS[name]}
 
 
 def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> list[Step]:
@@ -328,7 +329,7 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
         # Several Blenders run at a time: each has settings of its own.
         own, report = scratch / f"resources-{name}", scratch / f"{name}.xml"
         shutil.copytree(resources, own, symlinks=True)
-        variables = {**os.environ, **(_thirds(name) if brief else {DIAGONAL: str(len(SUITES))})}
+        variables = {**os.environ, **(_sixths(name) if brief else {DIAGONAL: str(len(SUITES))})}
         if name == "inside":
             _left_out("installed, inside: the unit tests but for the stored answers" + ("" if brief else
                       "; all but one situation of each operator, and of what tests/diagonal.py names"))
@@ -337,7 +338,7 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
 
     if not gui:
         _left_out("the real-window tests, no --gui was given")
-    # Some window tests measure how long a person waits, and draw in software: they need both cores.
+    # A window test measures how long a person waits, and draws in software: it needs both cores.
     parts = {"inside": False, "command": False, **({"window": False, "speed": True} if gui else {})}
     return [Step("build", build), *(Step(f"installed, {name}", partial(part, name), after="build", alone=alone)
                                     for name, alone in parts.items())]

@@ -13,13 +13,13 @@ import bpy
 import checkout
 import pytest
 import shapes
-from diagonal import in_thirds
+from diagonal import in_sixths
 from snapshot import activate
 
 
 def pytest_collection_modifyitems(config, items):
-    """Leave out what of this folder is not in the thirds that are asked for."""
-    out = [item for item in items if Path(__file__).parent in item.path.parents and not in_thirds(item.nodeid)]
+    """Leave out what of this folder is not in the sixths that are asked for."""
+    out = [item for item in items if Path(__file__).parent in item.path.parents and not in_sixths(item.nodeid)]
     items[:] = [item for item in items if item not in out]
     config.hook.pytest_deselected(items=out)
 

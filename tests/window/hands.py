@@ -7,7 +7,6 @@ Executed inside Blender as driver.py is, which says how.
 import json
 import os
 import sys
-import time
 
 import bpy
 from mathutils import Vector
@@ -51,11 +50,9 @@ def cancelled(seen):
     """Esc while it computes; fine base vertices make that long enough."""
     bpy.context.scene.reeb_parts.base_spacing = 0.0005
     yield from pointer.push("reeb_parts.decompose")
-    start = time.monotonic()
     pointer.xdo("key", "Escape")
-    while bpy.ops.reeb_parts.cancel.poll():
-        yield 0.02
-    seen["cancelled after"] = time.monotonic() - start
+    yield from pointer.until(lambda: not bpy.ops.reeb_parts.cancel.poll())
+    seen["goes on"] = bpy.ops.reeb_parts.cancel.poll()
     seen["cancelled"] = facts()
     bpy.context.scene.reeb_parts.base_spacing = 0.005
 
