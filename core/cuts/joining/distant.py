@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...arrays.pairs import pair_keys
 from ...arrays.ties import on_grid, rounded
-from .pairs import PartPairs, Salience, cut_between, unlikeness
+from .pairs import PartPairs, Salience, cut_between
 
 MOST_COMPARED = 80  # parts that are compared with all others; pairs grow as the square of it
 #: Of one part; of a pair first the smaller.
@@ -86,7 +86,7 @@ def distant_pairs(
         "steps": steps[first, second], "way": way[first, second],
         "distance": np.linalg.norm(shapes.center[small] - shapes.center[large], axis=1),
         "pass": level, "same_piece": same, "salience": cut_between(salience, small, large, same),
-        "alike": unlikeness(shapes.extents[small], shapes.extents[large]),
+        "alike": shapes.unlikeness(small, large),
         **{f"small_{n}": value[small] for n, value in of_part.items()},
         **{f"large_{n}": value[large] for n, value in of_part.items()},
         "small_climb": shapes.agd[small] - level, "large_climb": shapes.agd[large] - level,

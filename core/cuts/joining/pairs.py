@@ -10,32 +10,23 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ...arrays.indexing import last_of_each, run_starts, sums_by
+from ...arrays.indexing import last_of_each, run_starts
 from ...arrays.pairs import distinct_pairs
-from ...arrays.ties import rounded, square_roots
-from ...arrays.vectors import second_moments_of_each
+from ...arrays.ties import rounded
+from ...arrays.vectors import middles_of_each
 from ...mesh.triangles import TriMesh
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
-from ...surface.ordering import EQUAL
+from .part_shapes import PART, PartShapes
 
 RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, in units of the diameter
 # Pairs of parts are looked at if either is among the MOST_NEAR that come nearest to the other, or as near. Where that
 # would be more than MOST_PAIRS, it is fewer, but at least LEAST_NEAR. A blade of a lawn comes near hundreds of others;
 # in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
 LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 8, 48, 20_000
-ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
-# Lengths in units of the diameter: what is added to extents before their logarithms are taken, as those of a sheet are
-# 0 but for rounding, and before they divide; and how much farther than the nearest points others may be in a contact.
-THIN, SPREAD, SLACK = 0.003, 0.01, 1e-3
-FARTHEST = 5.0  # standard deviations of a part that a point may be outside of it; farther is as far
-MOST_ALIKE = 10_000  # parts among which a part's repeats are counted; of more, as in heaps of loose faces, every few
+SLACK = 1e-3  # how much farther than the nearest two points others may be in a contact, in units of the diameter
 
-#: Of one part; of a pair first the smaller.
-PART = ("log_area", "extent_1", "extent_2", "extent_3", "repeats", "agd", "agd_deviation", "touched", "log_piece_area",
-        "parts_of_piece", "flatness")
-#: Of a pair.
+#: Of a pair; in FEATURES those of its two parts follow, first of the smaller.
 PAIR = ("same_piece", "salience", "distance", "gap", "near_small_1", "near_small_2", "near_small_3", "near_large_1",
         "near_large_2", "near_large_3", "elsewhere_small", "elsewhere_large", "inside_small", "inside_large",
         "normals", "agd_change", "log_ratio", "alike", "contact_spread", "contact_extent", "height")
@@ -46,31 +37,6 @@ FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART))
 #: Two parts each, (e,) int64 twice, to a number of each two, (e,) float64. There is no table of all: of thousands of
 #: parts it would fill the memory.
 Salience = Callable[[np.ndarray, np.ndarray], np.ndarray]
-
-
-@dataclass(frozen=True, eq=False)
-class PartShapes:
-    """What parts are like, each by itself; lengths in units of the diameter.
-
-    Attributes
-    ----------
-    piece : (c,) int64
-        Piece that each part lies in.
-    area, piece_area : (c,) float64
-        Of each part and of its piece, share of the whole.
-    center : (c, 3) float64
-    extents : (c, 3) float64
-        Standard deviations along the principal axes, the largest first.
-    agd : (c,) float64
-        Mean of the normalized AGD.
-    """
-
-    piece: np.ndarray
-    area: np.ndarray
-    piece_area: np.ndarray
-    center: np.ndarray
-    extents: np.ndarray
-    agd: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,31 +91,27 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
     points = SurfacePoints.of(mesh, label)
     size = diameter(points.position, points.area)
     points = replace(points, position=points.position / size, area=points.area / points.area.sum() + 1e-12)
-    mine, count = label[points.face], int(label.max()) + 1
-    area = np.bincount(mine, points.area, count)
-    near = _Nearness.of(points, mine)
-    level = agd[points.vertex]
-    shape = _part_shapes(mesh, label, points, mine, area, level, near.touching())
+    shapes = PartShapes.of(mesh, label, points, agd)
+    part, area, count = label[points.face], shapes.area, len(shapes.area)
+    near = _Nearness.of(points, part)
+    of_part = shapes.columns(touched=np.bincount(part, points.area * near.touching(), count) / area)
     near = near.of_neighbors(count)
     swap = area[near.parts[:, 0]] > area[near.parts[:, 1]]
     small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
-    same = shape["piece"][small] == shape["piece"][large]
+    same = shapes.piece[small] == shapes.piece[large]
     nearest, gap = near.nearest()
     cut = cut_between(salience, small, large, same)
     columns = {
         "same_piece": same, "salience": cut,
-        "distance": np.linalg.norm(shape["center"][small] - shape["center"][large], axis=1),
-        "gap": gap,
-        **_share_columns(near, area, swap, shape["touched"][small], shape["touched"][large]),
-        "inside_small": _inside(shape, small, large), "inside_large": _inside(shape, large, small),
-        "agd_change": np.abs(shape["agd"][small] - shape["agd"][large]),
-        "log_ratio": np.log(area[large] / area[small]),
-        "alike": unlikeness(shape["extents"][small], shape["extents"][large]),
-        **_contact_columns(near, mesh.face_normals[points.face], level, gap, area[small]),
-        **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
+        "distance": np.linalg.norm(shapes.center[small] - shapes.center[large], axis=1), "gap": gap,
+        **_share_columns(near, area, swap, of_part["touched"][small], of_part["touched"][large]),
+        "inside_small": shapes.outside(small, large), "inside_large": shapes.outside(large, small),
+        "agd_change": np.abs(shapes.agd[small] - shapes.agd[large]), "log_ratio": np.log(area[large] / area[small]),
+        "alike": shapes.unlikeness(small, large),
+        **_contact_columns(near, mesh.face_normals[points.face], agd[points.vertex], gap, area[small]),
+        **{f"small_{n}": of_part[n][small] for n in PART}, **{f"large_{n}": of_part[n][large] for n in PART},
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
-    shapes = PartShapes(shape["piece"], area, shape["piece_area"], shape["center"], shape["extents"], shape["agd"])
     return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], shapes)
 
 
@@ -158,11 +120,6 @@ def cut_between(salience: Salience, first: np.ndarray, second: np.ndarray, same_
     cut = np.ones(len(same_piece))
     cut[same_piece] = salience(first[same_piece], second[same_piece])
     return cut
-
-
-def unlikeness(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """How much the extents of parts, (e, 3) each, differ: (e,) float64, the largest difference of their logarithms."""
-    return np.abs(np.log(first + THIN) - np.log(second + THIN)).max(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,61 +219,9 @@ def _contact_columns(
     point, other = near.ends.T
     contact = near.distance <= np.maximum(RADII[1], gap[row] + SLACK)
     weight = near.points.area[point] * contact + 1e-300
-    total = np.bincount(row, weight, count)
-    middle = sums_by(row, weight[:, None] * position[point], count) / total[:, None]
+    total, middle = middles_of_each(row, position[point], weight, count)
     spread = np.sqrt(np.maximum(np.bincount(
         row, weight * ((position[point] - middle[row]) ** 2).sum(axis=1), count) / total, 0))
     return {"normals": np.bincount(row, weight * (normal[point] * normal[other]).sum(axis=1), count) / total,
             "contact_spread": spread, "contact_extent": spread / np.sqrt(area_small),
             "height": np.bincount(row, weight * level[point], count) / total}
-
-
-def _part_shapes(
-    mesh: TriMesh, label: np.ndarray, points: SurfacePoints, mine: np.ndarray, area: np.ndarray, level: np.ndarray,
-    touching: np.ndarray,
-) -> dict[str, np.ndarray]:
-    """The columns PART of every part, its piece, its center, its principal axes, extents along them, and their spaces.
-
-    Axes of equal extents are in one space, all of whose directions are principal axes.
-
-    mine, level, touching : (s,), of each point, its part, its AGD, and whether it is near another part. area : (c,)
-    of each part.
-    """
-    count, position, weight = len(area), points.position, points.area
-    center = sums_by(mine, weight[:, None] * position, count) / area[:, None]
-    offset = position - center[mine]
-    values, axes = np.linalg.eigh(second_moments_of_each(mine, offset, weight, count) / area[:, None, None])
-    equal = np.diff(values[:, ::-1]) >= -EQUAL * values[:, -1:] - 1e-16  # of what is but a point, too
-    extents = square_roots(values[:, ::-1], values[:, -1:])
-    mean = np.bincount(mine, weight * level, count) / area
-    square = np.bincount(mine, weight * level**2, count) / area
-    deviation = square_roots(square - mean**2, square)
-    logs = np.column_stack([0.5 * np.log(area), np.log(extents + THIN)])
-    some = np.arange(count) % (count // MOST_ALIKE + 1) == 0
-    alike = cKDTree(logs[some]).query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - some
-    part_piece = np.zeros(count, np.int64)
-    part_piece[label] = mesh.face_components[1]
-    piece_area = np.bincount(part_piece, area)[part_piece]
-    touched = np.bincount(mine, weight * touching, count) / area
-    return {
-        "piece": part_piece, "piece_area": piece_area, "center": center, "axes": axes[:, :, ::-1], "extents": extents,
-        "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1), "log_area": np.log(area),
-        "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
-        "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike.astype(float), "agd": mean,
-        "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area),
-        "parts_of_piece": np.bincount(part_piece)[part_piece].astype(float),
-        "flatness": extents[:, 2] / np.sqrt(area),
-    }
-
-
-def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most FARTHEST.
-
-    Along the axis where this is most. Around the axis of a solid of revolution any turn of the others would do: one of
-    them then points at that middle.
-    """
-    offset = shape["center"][one] - shape["center"][other]
-    along = np.einsum("ni,nij->nj", offset, shape["axes"][other])
-    space = shape["space"][other]
-    along = np.sqrt((along[:, :, None] ** 2 * (space[:, :, None] == space[:, None, :])).sum(axis=1))
-    return np.minimum((along / (shape["extents"][other] + SPREAD)).max(axis=1), FARTHEST)

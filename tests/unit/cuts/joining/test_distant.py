@@ -5,15 +5,18 @@ import numpy as np
 import pytest
 
 from core.cuts.joining.distant import FAR, FEATURES, LOWEST, MOST_COMPARED, NEVER, NOT_NEAR, STEPS, distant_pairs
-from core.cuts.joining.pairs import PartPairs, PartShapes
+from core.cuts.joining.pairs import PartPairs
+from core.cuts.joining.part_shapes import PartShapes
 
 
 def parts_of(near, area, center, agd, piece=None):
     """Near pairs of parts of which only what ``distant_pairs`` looks at is known."""
     count = len(area)
     area, piece = np.asarray(area, float), np.arange(count) if piece is None else np.asarray(piece)
-    shapes = PartShapes(piece, area, np.bincount(piece, area)[piece], np.asarray(center, float),
-                        np.sqrt(area)[:, None] * (3.0, 2.0, 1.0), np.asarray(agd, float))
+    extents = np.sqrt(area)[:, None] * (3.0, 2.0, 1.0)
+    shapes = PartShapes(
+        piece, area, np.bincount(piece, area)[piece], np.asarray(center, float), extents,
+        np.tile(np.eye(3), (count, 1, 1)), np.tile(np.arange(3), (count, 1)), np.asarray(agd, float), np.zeros(count))
     near, nothing, faces = np.reshape(near, (-1, 2)), np.zeros(len(near)), np.zeros((len(near), 2), int)
     return PartPairs(near, np.empty((len(near), 0)), nothing > 0, nothing, nothing, faces, shapes)
 
