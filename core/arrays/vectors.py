@@ -80,9 +80,9 @@ def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
 def middles_of_each(
     index: np.ndarray, points: np.ndarray, weights: np.ndarray, count: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Sum the weights, (n,), of points, (n, 3), by ``index``, (n,), and take the weighted mean of the points.
+    """Sum the weights, (n,), of points, (n, k), by ``index``, (n,), and take the weighted mean of the points.
 
-    Returns (count,) and (count, 3) float64; the mean of no weight is 0.
+    Returns (count,) and (count, k) float64; the mean of no weight is 0.
     """
     total = np.bincount(index, weights, count)
     return total, sums_by(index, weights[:, None] * points, count) / np.where(total > 0, total, 1.0)[:, None]

@@ -14,7 +14,8 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import last_of_each, place_among, sums_by
+from ..arrays.indexing import last_of_each, place_among
+from ..arrays.vectors import middles_of_each
 from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .level_sets import LevelSets
 
@@ -278,11 +279,9 @@ def _node_means(sets: LevelSets, topology: ReebTopology) -> tuple[np.ndarray, np
     """Mean level, (k,), and mean position, (k, 3), of each node's slab pieces, weighted by area."""
     node = topology.piece_node[sets.element_piece]
     inside = node >= 0
-    weight = sets.element_weight[inside]
-    node = node[inside]
-    total = np.bincount(node, weight, topology.n_nodes)
     bounds = np.concatenate([[0.0], sets.levels, [1.0]])
     middles = ((bounds[:-1] + bounds[1:]) / 2)[sets.element_slab[inside]]
     centers = sets.mesh.face_centroids[sets.element_face[inside]]
-    means = sums_by(node, weight[:, None] * np.column_stack([middles, centers]), topology.n_nodes) / total[:, None]
+    _, means = middles_of_each(
+        node[inside], np.column_stack([middles, centers]), sets.element_weight[inside], topology.n_nodes)
     return means[:, 0], means[:, 1:]

@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import even_steps, sums_by
-from ..arrays.vectors import row_products
+from ..arrays.indexing import even_steps
+from ..arrays.vectors import middles_of_each, row_products
 from ..mesh.corners import CornerTable
 from ..mesh.triangles import TriMesh
 from ..sentence import Sentence
@@ -176,9 +176,8 @@ def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:
     if not chosen.any():
         return chosen
     count, piece = mesh.face_components
-    area = np.bincount(piece, mesh.face_area, count)
-    middle = sums_by(piece, mesh.face_area[:, None] * mesh.face_centroids, count)
-    away = mesh.face_centroids - (middle / np.where(area > 0, area, 1.0)[:, None])[piece]
+    area, middle = middles_of_each(piece, mesh.face_centroids, mesh.face_area, count)
+    away = mesh.face_centroids - middle[piece]
     volume = _sums(piece, row_products(mesh.area_normals, away), count)
     inside_out = chosen & (volume < 0) & (area >= LEAST_AREA * mesh.area)
     for one in np.flatnonzero(inside_out):

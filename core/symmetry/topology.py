@@ -16,9 +16,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays.components import components
-from ..arrays.indexing import GOLDEN, sums_by
+from ..arrays.indexing import GOLDEN
 from ..arrays.pairs import distinct_pairs
-from ..arrays.vectors import weighted_sum
+from ..arrays.vectors import middles_of_each, weighted_sum
 from ..mesh.half_edges import HalfEdges
 from ..mesh.triangles import TriMesh
 from .plane import positive_sign
@@ -86,8 +86,7 @@ def topology_mirror(mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Topo
     twin = _twins(half, _alike(half, partner), n_polygons)
     if area[twin >= 0].sum() < COVERED * mesh.area:
         return None
-    middle = sums_by(polygon, mesh.face_area[:, None] * mesh.face_centroids, n_polygons)
-    middle /= np.where(area > 0, area, 1.0)[:, None]
+    _, middle = middles_of_each(polygon, mesh.face_centroids, mesh.face_area, n_polygons)
     return _with_sides(_Regions.of(half, twin, area), twin, area, middle)
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.arrays.indexing import sums_by
+from ...core.arrays.vectors import middles_of_each
 from ...core.result.numbering import NumberedParts
 from ..reading import mesh_arrays, placing
 
@@ -22,8 +22,7 @@ def middles(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
     """The middle of the surface of each part, (count, 3) float64; Object Mode."""
     candidate, part = _candidate_middles(mesh, numbered.candidates), numbered.parts.candidate_part
     weight = numbered.parts.decomposition.candidate_area + 1e-300
-    total = np.bincount(part, weight)
-    return sums_by(part, weight[:, None] * candidate, len(total)) / total[:, None]
+    return middles_of_each(part, candidate, weight, numbered.parts.count)[1]
 
 
 def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarray:
@@ -31,9 +30,7 @@ def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarr
     key = mesh.session_uid, mesh.reeb_parts.fingerprint, id(candidates)
     if not _middles or _middles[0][0] != key:
         center, area = mesh_arrays.face_middles(mesh)
-        area += 1e-300
-        total = np.bincount(candidates, area)
-        found = sums_by(candidates, area[:, None] * center, len(total)) / total[:, None]
+        _, found = middles_of_each(candidates, center, area + 1e-300, int(candidates.max()) + 1)
         _middles[:] = [(key, found)]
     return _middles[0][1]
 

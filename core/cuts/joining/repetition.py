@@ -15,9 +15,8 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
 from ...arrays.components import components
-from ...arrays.indexing import sums_by
 from ...arrays.ties import on_grid, rounded
-from ...arrays.vectors import second_moments_of_each
+from ...arrays.vectors import middles_of_each, second_moments_of_each
 from ...mesh.triangles import TriMesh
 from .linkage import JudgedPairs, Linkage
 
@@ -42,8 +41,7 @@ def piece_kinds(mesh: TriMesh) -> np.ndarray:
     """
     count, piece = mesh.face_components
     area = mesh.face_area + 1e-300
-    total = np.bincount(piece, area, count)
-    center = sums_by(piece, area[:, None] * mesh.face_centroids, count) / total[:, None]
+    total, center = middles_of_each(piece, mesh.face_centroids, area, count)
     offset = mesh.face_centroids - center[piece]
     values = np.linalg.eigvalsh(second_moments_of_each(piece, offset, area, count) / total[:, None, None])
     size = np.sqrt(total)

@@ -8,7 +8,7 @@ import numpy as np
 from ...arrays.indexing import renumbered, sums_by
 from ...arrays.pairs import distinct_pairs
 from ...arrays.ties import first_least, rounded
-from ...arrays.vectors import weighted_sum
+from ...arrays.vectors import middles_of_each, weighted_sum
 
 MOST_CLUSTERS = 12  # upper bound of the number of clusters that is chosen from the data
 EXPLAINED = 0.9  # share of the variance that enough clusters explain
@@ -46,8 +46,7 @@ def cluster(points: np.ndarray, weight: np.ndarray, count: int = 0) -> np.ndarra
     """
     place = np.rint(points / BIN).astype(np.int64)  # flat regions, of curvature 0 but for rounding, are in one bin
     bins, of_bin = distinct_pairs(*(place - place.min(axis=0)).T)
-    total = np.bincount(of_bin, weight, len(bins))
-    means = sums_by(of_bin, weight[:, None] * points, len(bins)) / total[:, None]
+    total, means = middles_of_each(of_bin, points, weight, len(bins))
     label, variance = _moved(means, total, np.zeros(len(bins), np.int64))
     whole = variance
     while label.max() + 1 < (count or MOST_CLUSTERS):

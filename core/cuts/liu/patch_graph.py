@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.components import components
-from ...arrays.indexing import place_among, renumbered, sums_by
+from ...arrays.indexing import place_among, renumbered
+from ...arrays.vectors import middles_of_each
 from ...mesh.labels import label_boundaries
 from ...mesh.triangles import TriMesh
 from ...surface.curvature import curvature_across
@@ -50,9 +51,7 @@ class PatchGraph:
         """
         label = concave_patches(mesh, N_PATCHES)
         count, unit = int(label.max()) + 1, np.sqrt(mesh.area)
-        weight = mesh.face_weight
-        area = np.bincount(label, weight, count)
-        center = sums_by(label, weight[:, None] * mesh.face_centroids, count) / area[:, None]
+        area, center = middles_of_each(label, mesh.face_centroids, mesh.face_weight, count)
         concave = np.maximum(-curvature_across(mesh, CREASE_SCALE)[0], 0.0)
         pairs, length = label_boundaries(label, mesh.edges.pairs, mesh.pair_length)
         crease = label_boundaries(label, mesh.edges.pairs, mesh.pair_length * concave)[1]

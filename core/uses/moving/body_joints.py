@@ -10,7 +10,7 @@ import numpy as np
 from ...arrays.components import components
 from ...arrays.indexing import sums_by
 from ...arrays.pairs import distinct_pairs
-from ...arrays.vectors import cross, row_products, second_moments_of_each
+from ...arrays.vectors import cross, middles_of_each, row_products, second_moments_of_each
 from ...mesh.corners import CornerTable
 from .groups import beside, touching_groups
 from .hulls import Hull
@@ -67,7 +67,7 @@ def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
                                      for k, (_, some) in enumerate(contacts))])
     weight = np.concatenate([weight, *(np.ones(len(some)) for _, some in contacts)])
     middle = np.concatenate([middle, *(some for _, some in contacts)])
-    center = sums_by(joint, weight[:, None] * middle, len(pairs)) / np.bincount(joint, weight, len(pairs))[:, None]
+    _, center = middles_of_each(joint, middle, weight, len(pairs))
     spread = second_moments_of_each(joint, middle - center[joint], weight, len(pairs))
     axis, hinge = _frames(spread, _middles(table, labels)[pairs])
     return BodyJoints(pairs, center, axis, hinge)

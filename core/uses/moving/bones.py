@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components, mini
 
 from ...arrays.indexing import sums_by
 from ...arrays.pairs import distinct_pairs
+from ...arrays.vectors import middles_of_each
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
 from ...symmetry.plane import MirrorPlane
@@ -255,8 +256,7 @@ def _weights(area: np.ndarray) -> np.ndarray:
 def _middles(table: CornerTable, labels: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The center of each part's surface, (count, 3), and the means of the faces' corners, (p, 3)."""
     center = table.face_means(table.vertices)
-    share = np.bincount(labels, weight)
-    return sums_by(labels, weight[:, None] * center, len(share)) / share[:, None], center
+    return middles_of_each(labels, center, weight, int(labels.max()) + 1)[1], center
 
 
 def _up(images: PartImages | None) -> np.ndarray:

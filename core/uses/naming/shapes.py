@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...arrays.indexing import sums_by
+from ...arrays.vectors import middles_of_each
 from ...result.decomposition import Parts
 from .touching import LOOSE, Touching
 
@@ -102,8 +102,7 @@ class Shapes:
         """Measure parts once they are turned."""
         parts = touching.parts
         labels, count, center, points = parts.labels, parts.count, center @ turn.T, points @ turn.T
-        total = np.bincount(labels, weight, count)
-        middle = sums_by(labels, weight[:, None] * center, count) / total[:, None]
+        total, middle = middles_of_each(labels, center, weight, count)
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
         np.minimum.at(low, labels[point_face], points)
         np.maximum.at(high, labels[point_face], points)
