@@ -56,7 +56,7 @@ if TYPE_CHECKING:  # "as", so that a name counts as one of the package for those
     from .parameters import Parameters as Parameters
     from .pipeline import decompose as decompose
     from .result.decomposition import Decomposition as Decomposition
-    from .result.decomposition import Parts as Parts
+    from .result.parts import Parts as Parts
     from .version import VERSION as VERSION
 
 # The module of each name, which is imported when the name is first used: Blender reads the parameters when it starts,
@@ -70,7 +70,7 @@ _HOME = {
     "PRESETS": "parameters",
     "ParameterError": "errors",
     "Parameters": "parameters",
-    "Parts": "result.decomposition",
+    "Parts": "result.parts",
     "ReebError": "errors",
     "ReebGraph": "graph.reeb",
     "TriMesh": "mesh.triangles",

@@ -12,7 +12,8 @@ from .core import pipeline
 from .core.errors import MeshError, ParameterError
 from .core.parameters import Parameters
 from .core.progress import Progress
-from .core.result.decomposition import Decomposition, Parts
+from .core.result.decomposition import Decomposition
+from .core.result.parts import Parts
 from .core.sentence import Sentence
 from .core.uses.colors import part_colors
 

@@ -14,7 +14,8 @@ from .core.errors import ParameterError
 from .core.file_names import file_name
 from .core.mesh.arguments import whole_numbers
 from .core.mesh.triangles import TriMesh
-from .core.result.decomposition import Decomposition, Parts
+from .core.result.decomposition import Decomposition
+from .core.result.parts import Parts
 from .core.sentence import Sentence
 from .core.uses.colors import linear, part_colors
 from .core.uses.pictures import picture, png

@@ -14,7 +14,8 @@ From the components to the result:
 
 The result itself:
 
-- ``decomposition``: the result, and the parts that are read from it
+- ``decomposition``: the result, from which parts are read
+- ``parts``: the parts at one level of detail
 - ``stored``: the result as bytes, and back
 - ``levels``: at which detail there are so many parts
 - ``splits``: in which order parts come apart as the detail rises

@@ -19,8 +19,9 @@ import numpy as np
 from ..arrays.indexing import place_among, stable_order, sums_by
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE, first_largest, ranks
-from .decomposition import Decomposition, Parts, default_name
+from .decomposition import Decomposition
 from .levels import detail_between, strong_levels
+from .parts import Parts, default_name
 from .splits import Splits
 
 # Added to the areas by which candidates vote for numbers, in units of about the whole area: candidates without an area

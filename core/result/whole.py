@@ -13,7 +13,8 @@ from ..cuts.hierarchy import Hierarchy
 from ..mesh.corners import CornerTable
 from ..symmetry.halves import completed_table
 from ..symmetry.plane import MirrorPlane
-from .decomposition import Decomposition, Parts
+from .decomposition import Decomposition
+from .parts import Parts
 
 # A part reaches over the plane if it meets its image along so much, in square roots of its area: half of a ball has
 # 2.5, half of a tube more than 1.1, two legs that touch at the thighs less.

@@ -21,7 +21,7 @@ from ..graph.critical import MAXIMUM
 from ..mesh.copies import find_copies
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import TriMesh
-from ..result.decomposition import Parts
+from ..result.parts import Parts
 from ..sentence import Sentence
 from ..surface.ordering import sorted_by_place
 from ..surface.preparation import repair

@@ -15,7 +15,8 @@ from ..errors import ParameterError
 from ..graph.critical import KINDS
 from ..mesh.arguments import numbers as as_numbers
 from ..mesh.arguments import whole_numbers
-from ..result.decomposition import Decomposition, Parts
+from ..result.decomposition import Decomposition
+from ..result.parts import Parts
 from ..sentence import Sentence
 from ..version import VERSION
 from .colors import part_colors

@@ -11,7 +11,8 @@ from typing import Any
 
 from ..core.errors import ReebError
 from ..core.memory import lacks_memory
-from ..core.result.decomposition import Decomposition, Parts
+from ..core.result.decomposition import Decomposition
+from ..core.result.parts import Parts
 from ..core.sentence import Sentence
 from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose

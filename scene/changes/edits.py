@@ -21,7 +21,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ...core.arrays.components import components
 from ...core.mesh.corners import CornerTable
 from ...core.mesh.labels import FaceGraph
-from ...core.result.decomposition import Decomposition, Parts
+from ...core.result.decomposition import Decomposition
+from ...core.result.parts import Parts
 from ...core.sentence import Count
 from .. import bridge, property_updates, store
 from ..errors import SceneError

@@ -10,7 +10,7 @@ from collections.abc import Container
 import bpy
 import numpy as np
 
-from ...core.result.decomposition import default_name
+from ...core.result.parts import default_name
 from .. import transaction
 
 #: The largest number that a part has: colors are looked up in a table of all numbers.

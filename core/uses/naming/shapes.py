@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays.vectors import middles_of_each
-from ...result.decomposition import Parts
+from ...result.parts import Parts
 from .touching import LOOSE, Touching
 
 # None of the numbers of creatures is sharp: each 0.7 or 1.4 times as large names 1,401 to 1,474 parts of rigged models

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...result.decomposition import Parts
+from ...result.parts import Parts
 
 LOOSE = 10**6  # cuts from the body to a part that does not hang on it: more than a model has
 
