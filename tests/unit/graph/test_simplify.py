@@ -68,8 +68,8 @@ def test_an_arc_put_together_from_two_is_as_long_as_both():
     done = simplify(sets, topology, 0.0, 5)
     assert sorted(np.bincount(done.contour_arc[done.contour_arc >= 0]).tolist()) == [3, 7, 12]
     assert done.n_nodes == 4
-    # The same by height: the leg is as high as its two arcs together.
-    by_height = simplify(sets, topology, 0.0, 0, np.full(len(sets.levels), 0.5), 2.5)
+    # The same where each level is half as high: the leg is as high as its two arcs together.
+    by_height = simplify(sets, topology, 0.0, 2.5, np.full(len(sets.levels), 0.5))
     assert by_height.contour_arc.tolist() == done.contour_arc.tolist()
 
 
@@ -188,7 +188,7 @@ def test_the_height_of_a_level_is_in_units_of_the_largest_agd():
 
 def test_the_areas_of_what_is_left_add_up_to_the_surface(made):
     _, sets, before, _ = made
-    work = _WorkGraph(sets, before, np.ones(len(sets.levels)), (0.01 * sets.mesh.area, 2, 0.0))
+    work = _WorkGraph(sets, before, np.ones(len(sets.levels)), (0.01 * sets.mesh.area, 2.0))
     work.cancel_leaves()
     assert None in work.arcs
     left = [area for place, area in enumerate(work.area) if work.parent[place] == place]
