@@ -253,14 +253,12 @@ def cut_at_levels(
     contour_pieces[segment_contour, 0] = element_piece[lower]
     contour_pieces[segment_contour, 1] = element_piece[lower + 1]
     if bridges is not None and len(bridges):
-        loose_part = np.empty(n_pieces, np.int64)
-        loose_part[element_piece] = mesh.face_components[1][element_face]
-        across = _bridges_between(bridges, mesh.face_components[1], lowest, highest, first)
-        piece, contour = _bridged(across, element_piece, loose_part, contour_pieces)
+        loose_part = mesh.face_components[1]
+        links = _links_of(bridges, loose_part, lowest, highest, first)
+        of_piece = np.empty(n_pieces, np.int64)
+        of_piece[element_piece] = loose_part[element_face]
+        piece, contour, contour_pieces = _linked(links, element_piece, of_piece, contour_pieces)
         element_piece, segment_contour = piece[element_piece], contour[segment_contour]
-        joined = np.empty((int(contour.max(initial=-1)) + 1, 2), np.int64)
-        joined[contour] = piece[contour_pieces]
-        contour_pieces = joined
     piece_slab = np.empty(int(element_piece.max()) + 1, np.int64)
     piece_slab[element_piece] = element_slab
     contour_level = np.empty(len(contour_pieces), np.int64)
@@ -282,12 +280,13 @@ def _joined(
     return components(total, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
 
 
-def _bridges_between(
+def _links_of(
     bridges: np.ndarray, loose_part: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
 ) -> FaceBridges:
-    """Elements that bridges between faces, (l, 2), link. loose_part : (m,). lowest, highest, first : (m,).
+    """The elements that bridges between faces, (l, 2), link.
 
-    These are the lowest and highest slab of each face, and its element in slab 0, if it had one there.
+    loose_part, lowest, highest, first : (m,), of each face, its lowest and highest slab, and its element in slab 0, if
+    it had one there.
     """
     swap = loose_part[bridges[:, 0]] > loose_part[bridges[:, 1]]
     bridges = np.where(swap[:, None], bridges[:, ::-1], bridges)
@@ -296,15 +295,20 @@ def _bridges_between(
     return FaceBridges(first[bridges[meet]] + low[meet, None], (high - low + 1)[meet])
 
 
-def _bridged(
-    bridges: FaceBridges, element_piece: np.ndarray, loose_part: np.ndarray, contour_pieces: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """New number of each slab piece, (P,), and of each contour, (C,), where bridges join them.
+def _linked(
+    links: FaceBridges, element_piece: np.ndarray, loose_part: np.ndarray, contour_pieces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """New number of each slab piece, (P,), and of each contour, (C,), where links join them; the table of the latter.
 
-    element_piece : (E,). loose_part : (P,). contour_pieces : (C, 2).
+    element_piece : (E,). loose_part : (P,). contour_pieces : (C, 2), slab piece below and above each contour, in which
+    form the last array is returned with the new numbers.
     """
-    pieces, contours = joined_by_faces(bridges, element_piece, contour_pieces, loose_part)
-    return components(len(loose_part), *pieces.T)[1], components(len(contour_pieces), *contours.T)[1]
+    pieces, contours = joined_by_faces(links, element_piece, contour_pieces, loose_part)
+    piece = components(len(loose_part), *pieces.T)[1]
+    n_contours, contour = components(len(contour_pieces), *contours.T)
+    joined = np.empty((n_contours, 2), np.int64)
+    joined[contour] = piece[contour_pieces]
+    return piece, contour, joined
 
 
 def _share_below(low: np.ndarray, middle: np.ndarray, high: np.ndarray, level: np.ndarray) -> np.ndarray:

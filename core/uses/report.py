@@ -99,15 +99,7 @@ def report(
     """
     parts = decomposition.parts() if parts is None else parts
     _check_result(decomposition, parts)
-    numbers = list(range(1, parts.count + 1) if numbers is None else numbers)
-    names = list(parts.names if names is None else names)
-    for given, values in (("numbers", numbers), ("names", names)):
-        if len(values) != parts.count:
-            raise ParameterError(Sentence("There are {n} values for {total} elements: each needs one.",
-                                          n=len(values), total=parts.count), given)
-    if whole_numbers(numbers) is None:
-        raise ParameterError(
-            Sentence("Numbers must be {n} whole numbers, one for each part.", n=parts.count), "numbers")
+    numbers, names = _numbers_and_names(parts, numbers, names)
     colors = part_colors(parts.count, parts.cuts) if colors is None else _checked("colors", colors, (parts.count, 3))
     boxes = None if boxes is None else _checked("boxes", boxes, (parts.count, 2, 3))
     transform = np.eye(4) if transform is None else _checked("transform", transform, (4, 4))
@@ -138,6 +130,22 @@ def _check_result(decomposition: Decomposition, parts: Parts) -> None:
             for name in ("candidates", "node_candidate", "point_candidate"))):
         raise ParameterError(Sentence("The parts are of another result: give the one that they were read from."),
                              "parts")
+
+
+def _numbers_and_names(
+    parts: Parts, numbers: Iterable[int] | None, names: Iterable[str] | None
+) -> tuple[list[int], list[str]]:
+    """Number and name of each part, those given or its own; raises ParameterError if they are none."""
+    numbers = list(range(1, parts.count + 1) if numbers is None else numbers)
+    names = list(parts.names if names is None else names)
+    for given, values in (("numbers", numbers), ("names", names)):
+        if len(values) != parts.count:
+            raise ParameterError(Sentence("There are {n} values for {total} elements: each needs one.",
+                                          n=len(values), total=parts.count), given)
+    if whole_numbers(numbers) is None:
+        raise ParameterError(
+            Sentence("Numbers must be {n} whole numbers, one for each part.", n=parts.count), "numbers")
+    return numbers, names
 
 
 def _checked(name: str, values: ArrayLike, shape: tuple[int, ...]) -> np.ndarray:

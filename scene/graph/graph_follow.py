@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.indexing import sums_by
+from ...core.result.decomposition import Decomposition
 from ...core.uses.moving.motion import rigid_motions
 from .. import bridge, redraw, store
 from ..errors import SceneError
@@ -76,22 +77,10 @@ def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:
         stored = store.load(obj.data)
     except SceneError:  # the mesh was edited: the panel says so
         return
-    decomposition = stored.decomposition
-    graph = decomposition.graph
+    graph = stored.decomposition.graph
     back = bridge.unstretch(store.stretch_of(obj.data)).T
     rest = arc_curves.places(graph, back)
-    seen = _seen(context, obj)
-    moved = rest
-    if seen is not None:
-        label = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
-        table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
-        before = table.face_means(table.vertices)
-        area = mesh_arrays.read(obj.data.polygons, "area", np.float32).astype(np.float64)
-        motions = rigid_motions(before, seen, area, decomposition.candidates, decomposition.n_candidates)
-        size = np.ptp(before, axis=0).max()
-        moved = motions.moved(rest, label)
-        if np.abs(moved - rest).max(initial=0.0) <= _RESTS * size:
-            moved = rest
+    moved = _moved(context, obj, stored.decomposition, rest)
     _, known = places(obj)
     if moved is rest:
         _places.pop(obj.session_uid, None)
@@ -100,6 +89,22 @@ def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:
         _places[obj.session_uid] = _count, moved
     if graph_objects.shift(obj, graph, back, moved):
         redraw.viewports()
+
+
+def _moved(
+    context: bpy.types.Context, obj: bpy.types.Object, decomposition: Decomposition, rest: np.ndarray
+) -> np.ndarray:
+    """Where nodes and center points are seen that rest at some places, (k + r, 3); those very places if none moves."""
+    seen = _seen(context, obj)
+    if seen is None:
+        return rest
+    table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+    before = table.face_means(table.vertices)
+    area = mesh_arrays.read(obj.data.polygons, "area", np.float32).astype(np.float64)
+    motions = rigid_motions(before, seen, area, decomposition.candidates, decomposition.n_candidates)
+    moved = motions.moved(rest, np.concatenate([decomposition.node_candidate, decomposition.point_candidate]))
+    size = np.ptp(before, axis=0).max()
+    return rest if np.abs(moved - rest).max(initial=0.0) <= _RESTS * size else moved
 
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
@@ -43,40 +44,48 @@ def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[
     """What the pieces have in common: connected faces of caps with the same corners in two of them."""
     from ...core.uses.joints.places import Cap
 
-    keys = sorted(meshes)
-    found = [_cap_faces(meshes[key]) for key in keys]
-    corners = np.concatenate([points for _, points, _ in found]) if found else np.empty((0, 3), np.float32)
-    if not len(corners):
-        return []
-    name = _names(corners, [place for _, _, place in found])
-    piece = np.repeat(np.arange(len(keys)), [len(faces) for faces, _, _ in found])
-    face = np.concatenate([faces for faces, _, _ in found])
-    order = np.lexsort((piece, name))
-    twice = np.flatnonzero((name[order][1:] == name[order][:-1]) & (piece[order][1:] != piece[order][:-1]))
-    low, high = order[twice], order[twice + 1]
-    cuts = []
-
     @cache  # a piece has several cuts
-    def surface(place: int) -> tuple[np.ndarray, ...]:
+    def surface(key: int) -> tuple[np.ndarray, ...]:
         """Pairs of faces, points, triangles and their faces of a piece."""
-        mesh = meshes[keys[place]]
+        mesh = meshes[key]
         points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
         return mesh_arrays.corner_table(mesh).face_pairs()[0], points, *mesh_arrays.triangles(mesh)
 
-    for a, b in distinct_pairs(piece[low], piece[high])[0].tolist():
-        these = (piece[low] == a) & (piece[high] == b)
-        one, other = face[low[these]], face[high[these]]
-        sort = np.argsort(one)
-        one, other = one[sort], other[sort]
-        pairs, points, triangles, polygon = surface(a)
+    cuts = []
+    for keys, one, other in _shared_faces(meshes):
+        pairs, points, triangles, polygon = surface(keys[0])
         pairs = pairs[np.isin(pairs, one).all(axis=1)]
         count, label = components(len(one), *np.searchsorted(one, pairs).T)
         rims = points[_rims(triangles[np.isin(polygon, one)])]
         for index in range(count):
             mine = one[label == index]
             cap = Cap(points, triangles[np.isin(polygon, mine)], rims)
-            cuts.append(Cut((keys[a], keys[b]), cap, (mine, np.sort(other[label == index]))))
+            cuts.append(Cut(keys, cap, (mine, np.sort(other[label == index]))))
     return cuts
+
+
+def _shared_faces(
+    meshes: dict[int, bpy.types.Mesh],
+) -> Iterator[tuple[tuple[int, int], np.ndarray, np.ndarray]]:
+    """The keys of each two pieces that have faces of caps in common, and these faces in both, (k,) int64 each.
+
+    Those of the first piece rise; those of the second are in the same order.
+    """
+    keys = sorted(meshes)
+    found = [_cap_faces(meshes[key]) for key in keys]
+    corners = np.concatenate([points for _, points, _ in found]) if found else np.empty((0, 3), np.float32)
+    if not len(corners):
+        return
+    name = _names(corners, [place for _, _, place in found])
+    piece = np.repeat(np.arange(len(keys)), [len(faces) for faces, _, _ in found])
+    face = np.concatenate([faces for faces, _, _ in found])
+    order = np.lexsort((piece, name))
+    twice = np.flatnonzero((name[order][1:] == name[order][:-1]) & (piece[order][1:] != piece[order][:-1]))
+    low, high = order[twice], order[twice + 1]
+    for a, b in distinct_pairs(piece[low], piece[high])[0].tolist():
+        these = np.flatnonzero((piece[low] == a) & (piece[high] == b))
+        these = these[np.argsort(face[low[these]])]
+        yield (keys[a], keys[b]), face[low[these]], face[high[these]]
 
 
 def _rims(triangles: np.ndarray) -> np.ndarray:
