@@ -298,7 +298,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part that each face was to be in, with what goes along and the mirror image of the change; pieces have
         other numbers then.
     """
-    from ...core.result.editing.changes import split_around
+    from ...core.result.editing.finer_candidates import split_around
     from ...core.result.editing.mirrored import MirroredChange, cleaned
 
     found, before, asked = stored.decomposition, stored.face_numbers, face_numbers

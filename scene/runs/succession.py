@@ -62,7 +62,7 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
 
     most : (p,) int64, what most faces of each face's candidate are pinned to; new faces go with them.
     """
-    from ...core.result.editing.changes import split_around
+    from ...core.result.editing.finer_candidates import split_around
 
     pinned = np.where(former.number > 0, former.pinned, most)
     if np.array_equal(pinned, most):

@@ -2,12 +2,10 @@
 """Changes of parts by hand: where a part splits, which candidate it takes or gives, whether it is connected.
 
 All functions work on the c candidates of a decomposition; a mask is (c,) bool and says which of them belong to a part.
-Where the candidates are not fine enough for a change, ``split_around`` cuts some of them.
+Where the candidates are not fine enough for a change, ``finer_candidates`` cuts some of them.
 """
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
@@ -15,13 +13,9 @@ from scipy.sparse.csgraph import dijkstra
 from ...arrays.components import components
 from ...arrays.indexing import inverse, renumbered
 from ...arrays.pairs import both_ways, symmetric_matrix
-from ...cuts.hierarchy import Dendrogram, Hierarchy
-from ...graph.critical import SADDLE
-from ...mesh.corners import CornerTable
-from ...mesh.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
+from ...cuts.hierarchy import Dendrogram
+from ...mesh.labels import FaceGraph, label_boundaries, spread
 from ..decomposition import Decomposition
-from ..junctions import boundaries, junctions
-from .contour_cut import contours
 
 
 def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
@@ -272,175 +266,6 @@ def two_sides(graph: FaceGraph, contacts: np.ndarray, inside: np.ndarray, side: 
     # From one side to the other in turn: what touches one of the two is no piece of the other.
     found = np.where(inside, spread(known, *both_ways(region[pairs[across]]).T)[region], -1)
     return found == 1, found == 0
-
-
-def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceGraph) -> np.ndarray:
-    """What a change leaves of each candidate in several pieces, as of a limb with a ring around its middle.
-
-    Parameters
-    ----------
-    decomposition : Decomposition
-        p faces.
-    moved : (p,) bool
-        Faces that change their part.
-    graph : FaceGraph
-        Of the p faces.
-
-    Returns
-    -------
-    piece : (p,) int64
-        0 for faces that move and for the largest piece that is left of a candidate, or of each of its pieces if it was
-        in several before; 1 and more for the other pieces.
-    """
-    candidates = decomposition.candidates
-    partly = np.bincount(candidates, moved, decomposition.n_candidates) > 0
-    left = partly[candidates] & ~moved
-    touching = graph.with_contacts(decomposition.contacts)
-    _, piece = touching.regions(np.where(left, candidates, -1))
-    _, whole = touching.regions(np.where(partly[candidates], candidates, -1))
-    number, face = np.unique(piece[left], return_index=True)
-    of = whole[left][face]
-    order = np.lexsort((-np.bincount(piece, graph.area)[number], of))
-    rank = np.zeros(int(piece.max()) + 1, np.int64)
-    rank[number[order]] = np.arange(len(order)) - np.searchsorted(of[order], of[order])
-    return np.where(left, rank[piece], 0)
-
-
-def split_around(
-    decomposition: Decomposition, number: np.ndarray, graph: FaceGraph, table: CornerTable
-) -> Decomposition:
-    """Cut candidates so that faces can become parts that are given face by face.
-
-    Parameters
-    ----------
-    decomposition : Decomposition
-        p faces and c candidates.
-    number : (p,) int64
-        Faces of one number, 1 or more, shall be separable from all others. 0 for faces that stay as they are; what is
-        left of a candidate in several pieces becomes several candidates.
-    graph, table
-        As of ``split_candidates``.
-
-    Returns
-    -------
-    finer : Decomposition
-        As of ``split_candidates``; no candidate has faces of two numbers.
-    """
-    moved = number > 0
-    place = pieces_cut_off(decomposition, moved, graph)
-    place[moved] = place.max(initial=0) + 1 + np.unique(number[moved], return_inverse=True)[1]
-    # What differs, differs in a bit: of a thousand numbers, ten cuts tell all.
-    for bit in range(int(place.max(initial=0)).bit_length()):
-        decomposition = split_candidates(decomposition, (place >> bit) & 1 == 1, graph, table)
-    return decomposition
-
-
-def split_candidates(
-    decomposition: Decomposition, faces: np.ndarray, graph: FaceGraph, table: CornerTable
-) -> Decomposition:
-    """Cut candidates in two along the outline of some faces, so that these faces can become a part.
-
-    The two halves of a candidate merge before all other candidates. A level of detail therefore never shows the new
-    cuts, unless the halves are pinned to different parts.
-
-    Parameters
-    ----------
-    decomposition : Decomposition
-        p faces and c candidates.
-    faces : (p,) bool
-        Faces that shall be separable from the others.
-    graph : FaceGraph
-        Which of the p faces touch, and their areas.
-    table : CornerTable
-        Corners of the p faces, in the coordinates of ``decomposition.graph``.
-
-    Returns
-    -------
-    finer : Decomposition
-        Candidates below c are the old ones. Candidates from c on are the halves that consist of the given faces; the
-        vertices, nodes and center points in these halves belong to them. The given decomposition if no candidate
-        has to be cut.
-    """
-    old = decomposition.candidates
-    size = np.bincount(old, minlength=decomposition.n_candidates)
-    inside = np.bincount(old, faces, decomposition.n_candidates)
-    cut = np.flatnonzero((inside > 0) & (inside < size))
-    if not len(cut):
-        return decomposition
-    half = np.arange(decomposition.n_candidates)  # for each candidate, the one of its given faces
-    half[cut] = decomposition.n_candidates + np.arange(len(cut))
-    candidates = np.where(faces, half[old], old)
-    count = decomposition.n_candidates + len(cut)
-    sides = table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges)))
-    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, *sides)
-    members, at_junction = junctions(candidates, *sides)
-    area = np.bincount(candidates, graph.area, count)
-    area *= decomposition.candidate_area.sum() / area.sum()
-    hierarchy = decomposition.hierarchy
-    merges = np.concatenate([np.stack([cut, half[cut]], axis=1), hierarchy.merges])
-    salience = np.concatenate([np.zeros(len(cut)), hierarchy.salience])
-    nodes, points = _graph_halves(decomposition, faces, cut, half, table)
-    return replace(
-        decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
-        vertex_candidates=_vertex_halves(decomposition, candidates, graph.area, table),
-        candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience),
-        node_candidate=nodes, point_candidate=points, junctions=members, junction_length=at_junction)
-
-
-def _vertex_halves(
-    decomposition: Decomposition, candidates: np.ndarray, area: np.ndarray, table: CornerTable
-) -> np.ndarray:
-    """Candidate of each vertex, (n,): of the two halves of its former candidate, the one with more area around it."""
-    vertex, face = table.corner_vertex, table.corner_face
-    former = decomposition.vertex_candidates
-    votes = decomposition.candidates[face] == former[vertex]
-    vertex, face = vertex[votes], face[votes]
-    winner = majority(vertex, candidates[face], vote_weights(area)[face], len(former))
-    return np.where(winner >= 0, winner, former)
-
-
-def _graph_halves(
-    decomposition: Decomposition, faces: np.ndarray, cut: np.ndarray, half: np.ndarray, table: CornerTable
-) -> tuple[np.ndarray, np.ndarray]:
-    """Candidate of each node, (k,), and of each center point, (r,), of the graph after candidates were cut.
-
-    A center point or a saddle belongs to the half in which most of its contour lies, a minimum or a maximum to the half
-    in which the nearest vertex lies. cut : candidates that were cut. half : (c,), the new candidate of each old one.
-    """
-    graph = decomposition.graph
-    nodes, points = decomposition.node_candidate.copy(), decomposition.point_candidate.copy()
-    for candidate in cut.tolist():
-        mine = table.within(decomposition.candidates == candidate)
-        for place in np.flatnonzero(points == candidate):
-            if _contour_is_on(mine, decomposition, graph.point_position[place], graph.point_value[place], faces):
-                points[place] = half[candidate]
-        for node in np.flatnonzero(nodes == candidate):
-            position = graph.node_position[node]
-            on = (_contour_is_on(mine, decomposition, position, graph.node_value[node], faces)
-                  if graph.node_kind[node] == SADDLE else _nearest_is_on(mine, position, faces))
-            if on:
-                nodes[node] = half[candidate]
-    return nodes, points
-
-
-def _contour_is_on(
-    table: CornerTable, decomposition: Decomposition, position: np.ndarray, level: float, faces: np.ndarray
-) -> bool:
-    """Whether most of the contour of a level around a position, on the faces of a table, lies on faces of a mask."""
-    found = contours(decomposition.field, level, table)
-    chosen = found.label == found.around(position)
-    if not chosen.any():
-        return _nearest_is_on(table, position, faces)
-    length = found.length[chosen]
-    return bool(length[faces[found.face[chosen]]].sum() > length.sum() / 2)
-
-
-def _nearest_is_on(table: CornerTable, position: np.ndarray, faces: np.ndarray) -> bool:
-    """Whether most faces of a table that meet at the vertex nearest to a position are faces of a mask, (p,) bool."""
-    offset = table.vertices[table.corner_vertex] - position
-    nearest = table.corner_vertex[np.einsum("ij,ij->i", offset, offset).argmin()]
-    around = faces[table.corner_face[table.corner_vertex == nearest]]
-    return bool(around.sum() > len(around) / 2)
 
 
 def _inside(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:

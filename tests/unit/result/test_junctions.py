@@ -12,7 +12,7 @@ from core.mesh.labels import FaceGraph
 from core.parameters import PRESETS, Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
-from core.result.editing.changes import split_candidates
+from core.result.editing.finer_candidates import split_candidates
 from core.result.junctions import boundaries, counted_again, junctions
 
 

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Candidates cut along given faces: no level of detail changes, and vertices and graph know the halves."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import shapes
+from face_graphs import graph_of
+
+from core import Parameters, decompose
+from core.cuts.hierarchy import Hierarchy
+from core.graph.critical import MAXIMUM
+from core.graph.reeb import ReebGraph
+from core.mesh.corners import CornerTable
+from core.mesh.labels import FaceGraph
+from core.result.decomposition import Decomposition
+from core.result.editing.finer_candidates import pieces_cut_off, split_around, split_candidates
+
+
+@pytest.fixture(scope="module")
+def result():
+    return decompose(*shapes.tube_tree(), Parameters(method="berretti"))
+
+
+@pytest.fixture(scope="module")
+def tree():
+    """Faces that touch and corners of the mesh of ``result``."""
+    shape = shapes.tube_tree()
+    return graph_of(shape), CornerTable.of(*shape)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_finer_candidates_change_no_parts(result, tree, seed):
+    graph, table = tree
+    chosen = np.random.default_rng(seed).random(graph.n_faces) < 0.5
+    # Every candidate is cut, however small.
+    chosen[np.unique(result.candidates, return_index=True)[1]] = True
+    chosen[graph.n_faces - 1 - np.unique(result.candidates[::-1], return_index=True)[1]] = False
+    finer = split_candidates(result, chosen, graph, table)
+    assert finer.n_candidates == 2 * result.n_candidates
+    for detail in (0.0, 0.4, 0.6, 0.99):
+        fine, coarse = finer.parts(detail), result.parts(detail)
+        for name in ("labels", "vertex_labels", "node_part", "point_part", "arc_part", "cuts"):
+            np.testing.assert_array_equal(getattr(fine, name), getattr(coarse, name))
+    # Candidates lie wholly inside or outside of the chosen faces.
+    inside = np.bincount(finer.candidates, chosen)
+    assert ((inside == 0) | (inside == np.bincount(finer.candidates))).all()
+    assert finer.candidate_area == pytest.approx(np.bincount(finer.candidates, graph.area))
+    # Of the two halves of its candidate, every vertex is of the one with more area around it.
+    area = np.zeros((len(table.vertices), finer.n_candidates))
+    np.add.at(area, (table.corner_vertex, finer.candidates[table.corner_face]), graph.area[table.corner_face])
+    rows, half = np.arange(len(area)), result.n_candidates + result.vertex_candidates  # all candidates are cut
+    both = np.stack([area[rows, result.vertex_candidates], area[rows, half]], axis=1)
+    np.testing.assert_allclose(area[rows, finer.vertex_candidates], both.max(axis=1), rtol=1e-9)
+
+
+def test_the_graph_follows_a_branch_that_is_cut_half_way(result, tree):
+    """Once they stayed with the old candidate: the graph's colors, picking and the JSON named the wrong part."""
+    graph, table = tree
+    tips = np.flatnonzero(result.graph.node_kind == MAXIMUM)
+    points = np.bincount(result.point_candidate, minlength=result.n_candidates)
+    tip = int(tips[points[result.node_candidate[tips]].argmax()])  # of a branch long enough to be halved
+    branch = result.node_candidate[tip]
+    mine = np.flatnonzero(result.point_candidate == branch)
+    level = np.median(result.graph.point_value[mine])
+    beyond = (result.candidates == branch) & (table.face_means(result.field) > level)
+    finer = split_candidates(result, beyond, graph, table)
+    new = result.n_candidates
+    assert finer.node_candidate[tip] == new
+    # A contour goes where most of it lies: only at the cut itself, where faces lie on both sides, can that be open.
+    clear = mine[np.abs(result.graph.point_value[mine] - level) > 0.02]
+    assert len(clear) > 5
+    np.testing.assert_array_equal(finer.point_candidate[clear] == new, result.graph.point_value[clear] > level)
+    others = np.setdiff1d(np.arange(len(result.point_candidate)), mine)
+    np.testing.assert_array_equal(finer.point_candidate[others], result.point_candidate[others])
+    # Vertices with nothing but the new candidate around them, or nothing of it, are known by that.
+    low, high = (np.full(len(table.vertices), start) for start in (new, 0))
+    np.minimum.at(low, table.corner_vertex, finer.candidates[table.corner_face])
+    np.maximum.at(high, table.corner_vertex, finer.candidates[table.corner_face])
+    mine = result.vertex_candidates == branch
+    assert (finer.vertex_candidates[mine & (low == new)] == new).all()
+    assert (finer.vertex_candidates[~mine | (high < new)] == result.vertex_candidates[~mine | (high < new)]).all()
+
+
+def test_pieces_cut_off_by_hand():
+    """A row of faces 0 1 2 3 4 5 6 of one candidate, 7 and 8 of another that is in two places; 2 and 5 move, and 7."""
+    pairs = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7]])
+    graph = FaceGraph(9, pairs, np.ones(7), np.array([3.0, 1, 1, 1, 1, 1, 5, 1, 1]))
+    found = SimpleNamespace(candidates=np.array([0, 0, 0, 0, 0, 0, 0, 1, 1]), n_candidates=2,
+                            contacts=np.empty((0, 2), np.int64))
+    piece = pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph)
+    assert piece.tolist() == [1, 1, 0, 2, 2, 0, 0, 0, 0]
+    nothing = pieces_cut_off(found, np.zeros(9, bool), graph)
+    assert not nothing.any()
+    found.contacts = np.array([[1, 3]])  # across a gap
+    assert pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph).tolist() == [0, 0, 0, 0, 0, 0, 1, 0, 0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_any_numbers_of_faces_can_be_parts_and_change_no_level_otherwise(result, tree, seed):
+    """Of five numbers at random, each candidate has one, and of what is left of a candidate each piece is one."""
+    graph, table = tree
+    number = np.random.default_rng(seed).integers(0, 6, graph.n_faces)
+    finer = split_around(result, number, graph, table)
+    of_candidate = np.zeros(finer.n_candidates, np.int64)
+    of_candidate[finer.candidates] = number
+    np.testing.assert_array_equal(of_candidate[finer.candidates], number)
+    left = np.where(number == 0, finer.candidates, -1)
+    region = graph.regions(left)[1]
+    assert len(np.unique(region[number == 0])) == len(np.unique(left)) - 1
+    for n_parts in (1, 4, result.n_candidates):
+        np.testing.assert_array_equal(finer.parts(n_parts=n_parts).labels, result.parts(n_parts=n_parts).labels)
+
+
+def test_no_numbers_need_no_splitting(result, tree):
+    assert split_around(result, np.zeros(result.n_faces, np.int64), *tree) is result
+
+
+def test_whole_candidates_need_no_splitting(result, tree):
+    assert split_candidates(result, result.candidates == 1, *tree) is result
+
+
+def test_areas_stay_in_the_unit_of_the_result(result, tree):
+    graph, table = tree
+    larger = FaceGraph(graph.n_faces, graph.pairs, graph.length, 7 * graph.area)
+    chosen = np.arange(graph.n_faces) % 2 == 0
+    finer, same = (split_candidates(result, chosen, some, table) for some in (larger, graph))
+    assert finer.candidate_area.sum() == pytest.approx(result.candidate_area.sum())
+    assert finer.candidate_area == pytest.approx(same.candidate_area)
+
+
+def test_a_candidate_that_is_split_still_touches_what_it_only_lies_on():
+    """Two balls that touch in one place, on the side of the given half of the first."""
+    shape = shapes.two_spheres()
+    result, graph, table = decompose(*shape), graph_of(shape), CornerTable.of(*shape)
+    (one, other), = result.contacts.tolist()
+    first, second = result.candidates[[one, other]].tolist()
+    assert [min(first, second), max(first, second)] in result.candidate_pairs.tolist()
+    given = result.candidates == first
+    for half, candidate in ((given & (np.arange(graph.n_faces) != one), first),
+                            (np.arange(graph.n_faces) == one, result.n_candidates)):
+        finer = split_candidates(result, half, graph, table)
+        assert finer.candidates[one] == candidate
+        assert sorted((candidate, second)) in finer.candidate_pairs.tolist()
+
+
+def test_around_a_vertex_of_needles_their_number_decides():
+    """Three needles and a triangle; the first vertex is at the tips of the needles alone, two of which are cut off."""
+    vertices = np.array([(0.0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 0), (1, 1, 0)])
+    shape = vertices, np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (2, 1, 5)])
+    area = np.array([0, 0, 0, 0.5])
+    graph = FaceGraph(4, np.array([(0, 1), (1, 2), (0, 3)]), np.array([2.0, 3, 1]), area)
+    result = Decomposition(
+        candidates=np.zeros(4, np.int64), vertex_candidates=np.zeros(6, np.int64), candidate_area=np.array([0.5]),
+        candidate_pairs=np.empty((0, 2), np.int64), candidate_pair_length=np.empty(0),
+        hierarchy=Hierarchy.of(1, [], []), field=np.zeros(6), graph=ReebGraph.empty(),
+        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
+        contacts=np.empty((0, 2), np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
+        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
+    finer = split_candidates(result, np.array([False, True, True, False]), graph, CornerTable.of(*shape))
+    assert finer.vertex_candidates.tolist() == [1, 0, 0, 1, 1, 0]
