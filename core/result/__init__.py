@@ -19,6 +19,7 @@ The result itself:
 - ``stored``: the result as bytes, and back
 - ``levels``: at which detail there are so many parts
 - ``splits``: in which order parts come apart as the detail rises
+- ``births``: which number is born with each of them
 - ``numbering``: numbers of parts that last
 - ``whole``: the parts of a half model together with their images
 
