@@ -61,7 +61,10 @@ def _placed(prototypes: set[bpy.types.Object]) -> list[tuple[bpy.types.Object, n
 
 
 def _mend_corners(mesh: bpy.types.Mesh) -> None:
-    """Drop faces with corners that do not exist, at which Blender would crash; not all its importers do."""
+    """Drop faces with corners that do not exist, at which Blender would crash; not all its importers do.
+
+    As batch/importers.py has it, which the Blender that runs this file need not have.
+    """
     corner = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corner)
     if (corner.view(np.uint32) >= len(mesh.vertices)).any():
