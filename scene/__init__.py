@@ -33,6 +33,7 @@ What every operator needs:
 - ``errors``: what users are told, and the way into core
 - ``transaction``: all or nothing
 - ``snapshots``: what a transaction keeps
+- ``renaming``: many data blocks get other names
 - ``property_updates``: whether it is the user who writes a property
 - ``modes``: leaves a mode, and returns to it
 - ``temporary``: data that is there for a while only

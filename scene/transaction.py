@@ -25,6 +25,7 @@ import bpy
 
 from . import property_updates
 from .modes import set_mode
+from .renaming import rename
 from .snapshots import MeshCopy, set_values, values_of
 
 # What is made by one of our commands, or by one of Blender's that ours call.
@@ -152,7 +153,7 @@ def discard(*blocks: bpy.types.ID) -> None:
                 if named is not None:
                     if not is_new(named):
                         _open[0].renamed.append(partial(setattr, named, "name", named.name))
-                    named.name = "Reeb Parts, to be removed"
+                    rename(named, "Reeb Parts, to be removed")
     if first:
         bpy.data.batch_remove(blocks[:first])
 

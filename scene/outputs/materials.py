@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
-from .. import transaction
+from .. import renaming, transaction
 from ..reading import mesh_arrays
 from ..result import part_names
 from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
@@ -102,18 +102,32 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     slots, places = np.zeros(numbered.parts.count, np.int32), {}
     for index, material in enumerate(mesh.materials):
         places.setdefault(material, index)
+    first = None
     for label, part in enumerate(mesh.reeb_parts.parts):
         if part.material is None:
-            part.material = bpy.data.materials.new(part.name)
-            part.material[_OURS] = part.material.name
-            if bpy.app.version < (5, 0):  # newer ones always do
-                part.material.use_nodes = True
+            part.material = first = _new(part.name, first)
         _color_material(part.material, linear(part.color))
         if part.material not in places:
             places[part.material] = len(mesh.materials)
             mesh.materials.append(part.material)
         slots[label] = places[part.material]
     mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots[numbered.parts.labels])
+
+
+def _new(name: str, like: bpy.types.Material | None) -> bpy.types.Material:
+    """A material for a part, made like another one that is new, if there is one.
+
+    For each that it makes from nothing Blender goes through all node trees that there are.
+    """
+    if like is None:
+        material = bpy.data.materials.new(name)
+        if bpy.app.version < (5, 0):  # newer ones always do
+            material.use_nodes = True
+    else:
+        material = like.copy()
+        renaming.rename(material, name)
+    material[_OURS] = material.name
+    return material
 
 
 def _take_names(mesh: bpy.types.Mesh) -> None:
@@ -146,7 +160,7 @@ def _name(material: bpy.types.Material, name: str) -> None:
     """Give a material a name, or the nearest that is free, and remember that it is ours."""
     transaction.keep_keys(material, _OURS)
     transaction.keep(material, "name")
-    material.name = name
+    renaming.rename(material, name)
     material[_OURS] = material.name
 
 

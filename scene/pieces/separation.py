@@ -20,6 +20,7 @@ from .. import bridge, joints
 from ..ours import made_objects, modifiers
 from ..reading import mesh_arrays, modified
 from ..reading.placing import millimeters
+from ..renaming import rename
 from ..result import part_names
 from ..settings import SeparateProperties, closes_holes
 from ..showing import explode, hidden
@@ -273,7 +274,8 @@ def _piece(run: _Run, mesh: bpy.types.Mesh, name: str) -> bpy.types.Object:
     piece = obj.copy()
     explode.forget(piece)
     hidden.forget(piece)
-    piece.name = mesh.name = name
+    for block in (piece, mesh):
+        rename(block, name)
     piece.data = mesh
     piece.hide_viewport, piece.hide_render = False, not is_rendered(run.context, obj)
     if not _keeps_modifiers(style):
