@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
@@ -28,8 +29,20 @@ LOCKS = 150  # no locks in the list
 WIDE_CHIPS = 120  # colors are stripes only
 TICKS = 90  # no boxes to tick: parts are marked with the tool, or by the menu
 FOLD = 18  # what folds a panel, before its words
-# What a row of the list has besides a part's name and share: its frame, and the bar that scrolls it.
-FRAME, BESIDE = 30, 28
+# What a row of the list has besides a part's name and share: its frame, the bar that scrolls it, the buttons beside it.
+FRAME, BAR, BESIDE = 12, 18, 28
+
+
+@dataclass
+class Rows:
+    """Rows of the list in a region: how many there are, how many of them are drawn, and whether it scrolls."""
+
+    count: int
+    drawn: int
+    scrolls: bool
+
+
+_rows: dict[int, Rows] = {}  # by the region
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -69,7 +82,9 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
         percent = f"{100 * item.share:.1f} %"
-        if _has_share(room, item.name, percent):
+        rows = _rows[context.region.as_pointer()]
+        rows.drawn += 1
+        if _has_share(room, item.name, percent, rows.scrolls):
             share = row.row()
             share.alignment = "RIGHT"
             share.label(text=percent)
@@ -94,13 +109,33 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
                 self.filter_name, self.bitflag_filter_item, parts, "name")
         elif left_out := part_list.folded(data.id_data):
             flags = [0 if part.number in left_out else self.bitflag_filter_item for part in parts]
+        _count_rows(context, sum(bool(flag) != self.use_filter_invert for flag in flags))
         matrix = context.object.matrix_world if context.object is not None else Matrix()
         return flags, part_list.ordered(parts, settings.sort, matrix)
 
 
-def _has_share(room: Room, name: str, percent: str) -> bool:
+def _count_rows(context: bpy.types.Context, count: int) -> None:
+    """Before the rows of the list are drawn in a region: find out whether there is a bar that scrolls it.
+
+    Blender does not tell. The user may have dragged the list shorter, which shows in how many rows it drew before.
+    """
+    region = context.region.as_pointer()
+    before = _rows.get(region)
+    scrolls = before.drawn < count if before is not None and before.count == count else count > _most_rows(context)
+    if len(_rows) > 100:  # regions that are no more
+        _rows.clear()
+    _rows[region] = Rows(count, 0, scrolls)
+
+
+def _most_rows(context: bpy.types.Context) -> int:
+    """How many rows the list has at most, unless the user drags it longer."""
+    height = context.region.height / context.preferences.system.ui_scale
+    return min(max(int((height - OTHER_ROWS) / ROW), ROWS), MOST_ROWS)
+
+
+def _has_share(room: Room, name: str, percent: str, scrolls: bool) -> bool:
     """Whether the share of a part fits beside its name: the name is the last to be cut off."""
-    buttons = BESIDE + FRAME + 3 * ROW  # the color, the lock and the tick
+    buttons = BESIDE + FRAME + BAR * scrolls + 3 * ROW  # the color, the lock and the tick
     return room.width >= LOCKS and room.text(name) + room.text(percent) + 2 * 8 <= room.width - buttons
 
 
@@ -295,9 +330,8 @@ def _draw_list(layout: bpy.types.UILayout, context: bpy.types.Context, room: Roo
     """The list with its buttons, beside it or below it; it grows with its parts as far as the sidebar is high."""
     beside = room.width >= BUTTONS_BESIDE
     row = layout.row() if beside else layout.column(align=True)
-    height = context.region.height / context.preferences.system.ui_scale
-    most = min(max(int((height - OTHER_ROWS) / ROW), ROWS), MOST_ROWS)
-    row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=ROWS, maxrows=most)
+    row.template_list(
+        "REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=ROWS, maxrows=_most_rows(context))
     column = row.column(align=True) if beside else row.grid_flow(
         row_major=True, columns=6 if room.width >= 6 * ROW else 3, even_columns=True, align=True)
     column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")

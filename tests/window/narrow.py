@@ -29,6 +29,7 @@ def steps():
     yield 0.5
     bpy.context.preferences.use_preferences_save = False  # the next driver speaks English
     SEEN["parts"] = len(model().data.reeb_parts.parts)
+    SEEN["shares"] = yield from shares_of("front piece", "front pieces", "front pieces 12")
     pointer.shot("wide.png")
     for width, code in LANGUAGES.items():
         yield from narrow_to(width)
@@ -37,6 +38,26 @@ def steps():
         SEEN[str(width)] = yield from seen_now()
         pointer.shot(f"{width}_{code}.png")
     (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
+
+
+def shares_of(*names):
+    """With which names the largest part has its share in the list: while all rows are seen, and while it scrolls."""
+    part, found = max(model().data.reeb_parts.parts, key=lambda part: part.share), {}
+    (panel,) = (module for name, module in sys.modules.items() if name.endswith("reeb_parts.ui.panel"))
+    own, asked, before, most = panel._has_share, {}, part.name, panel.MOST_ROWS
+    panel._has_share = lambda room, name, *rest: asked.setdefault(name, own(room, name, *rest))
+    for key, rows in (("all", most), ("scrolled", panel.ROWS)):
+        panel.MOST_ROWS, found[key] = rows, []
+        for name in names:
+            part.name = name
+            for _ in range(2):
+                asked.clear()
+                pointer.region("UI").tag_redraw()
+                yield 0.5
+            found[key] += [name] if asked[name] else []
+            pointer.shot(f"share_{key}_{name}.png")
+    panel._has_share, panel.MOST_ROWS, part.name = own, most, before
+    return found
 
 
 def narrow_to(width):

@@ -41,6 +41,11 @@ def test_eleven_parts_need_no_scrolling(seen):
     assert len(rows) == seen["parts"] == 11
 
 
+def test_shares_are_shown_wherever_they_fit_beside_the_name(seen):
+    """The bar that scrolls the list was kept free where there was none. A wider name would be cut off."""
+    assert seen["shares"] == {"all": ["front piece", "front pieces"], "scrolled": []}
+
+
 def test_the_list_loses_its_locks_first_and_then_its_ticks(seen):
     ends = {width: {shown.rpartition(".")[2] for shown in seen[width]["found"]} for width in WIDTHS}
     assert "selected" in ends["160"]
