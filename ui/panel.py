@@ -82,7 +82,7 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
         percent = f"{100 * item.share:.1f} %"
-        rows = _rows[context.region.as_pointer()]
+        rows = _rows.setdefault(context.region.as_pointer(), Rows(0, 0, scrolls=True))
         rows.drawn += 1
         if _has_share(room, item.name, percent, rows.scrolls):
             share = row.row()
