@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
@@ -31,18 +30,8 @@ TICKS = 90  # no boxes to tick: parts are marked with the tool, or by the menu
 FOLD = 18  # what folds a panel, before its words
 # What a row of the list has besides a part's name and share: its frame, the bar that scrolls it, the buttons beside it.
 FRAME, BAR, BESIDE = 12, 18, 28
-
-
-@dataclass
-class Rows:
-    """Rows of the list in a region: how many there are, how many of them are drawn, and whether it scrolls."""
-
-    count: int
-    drawn: int
-    scrolls: bool
-
-
-_rows: dict[int, Rows] = {}  # by the region
+# By the region, whether its list has a bar; Blender does not tell. Of one that the user dragged shorter it is unknown.
+_scrolls: dict[int, bool] = {}
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -82,9 +71,7 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
         percent = f"{100 * item.share:.1f} %"
-        rows = _rows.setdefault(context.region.as_pointer(), Rows(0, 0, scrolls=True))
-        rows.drawn += 1
-        if _has_share(room, item.name, percent, rows.scrolls):
+        if _has_share(room, item.name, percent, _scrolls.get(context.region.as_pointer(), True)):
             share = row.row()
             share.alignment = "RIGHT"
             share.label(text=percent)
@@ -109,22 +96,10 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
                 self.filter_name, self.bitflag_filter_item, parts, "name")
         elif left_out := part_list.folded(data.id_data):
             flags = [0 if part.number in left_out else self.bitflag_filter_item for part in parts]
-        _count_rows(context, sum(bool(flag) != self.use_filter_invert for flag in flags))
+        shown = sum(bool(flag) != self.use_filter_invert for flag in flags)
+        _scrolls[context.region.as_pointer()] = shown > _most_rows(context)
         matrix = context.object.matrix_world if context.object is not None else Matrix()
         return flags, part_list.ordered(parts, settings.sort, matrix)
-
-
-def _count_rows(context: bpy.types.Context, count: int) -> None:
-    """Before the rows of the list are drawn in a region: find out whether there is a bar that scrolls it.
-
-    Blender does not tell. The user may have dragged the list shorter, which shows in how many rows it drew before.
-    """
-    region = context.region.as_pointer()
-    before = _rows.get(region)
-    scrolls = before.drawn < count if before is not None and before.count == count else count > _most_rows(context)
-    if len(_rows) > 100:  # regions that are no more
-        _rows.clear()
-    _rows[region] = Rows(count, 0, scrolls)
 
 
 def _most_rows(context: bpy.types.Context) -> int:
