@@ -11,6 +11,7 @@ from pathlib import Path
 
 import bpy
 import checkout
+import numpy as np
 import pytest
 import shapes
 from diagonal import in_sixths
@@ -53,7 +54,8 @@ def make(scene):
     def make_object(shape, name="Tree"):
         vertices, faces = shape
         mesh = bpy.data.meshes.new(name)
-        mesh.from_pydata([tuple(v) for v in vertices], [], [tuple(map(int, f)) for f in faces])
+        as_lists = faces.tolist() if isinstance(faces, np.ndarray) else [list(map(int, face)) for face in faces]
+        mesh.from_pydata(np.asarray(vertices).tolist(), [], as_lists)
         obj = bpy.data.objects.new(name, mesh)
         bpy.context.scene.collection.objects.link(obj)
         activate(obj)
