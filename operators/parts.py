@@ -58,10 +58,9 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
     show_all: bpy.props.BoolProperty(name="Show All", description="Show every face again")
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
-        if self.show_all:
-            hidden.show_all(obj.data)
-        else:
-            hidden.isolate(obj.data, np.isin(stored.face_numbers, chosen_numbers(obj.data)))
+        numbers = stored.face_numbers
+        shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(obj.data))
+        hidden.isolate(obj.data, shown)
         _look_again(obj.data, stored)
 
 

@@ -52,9 +52,9 @@ def remove(obj: bpy.types.Object) -> bool:
     seams.take_back(mesh, ours)
     face_sets.take_back(mesh, numbers)
     materials.take_back(mesh, ours)
-    for kind in ((field.NAME, "FLOAT", "POINT"), (hidden.ATTRIBUTE, "BOOLEAN", "FACE")):
-        if find_attribute(mesh, *kind):
-            remove_attribute(mesh, kind[0])
+    hidden.remove_attributes(mesh)
+    if find_attribute(mesh, field.NAME, "FLOAT", "POINT"):
+        remove_attribute(mesh, field.NAME)
     for name in (colors.NAME, face_attribute.NAME):
         remove_attribute(mesh, name)
     mesh.update()

@@ -31,25 +31,18 @@ def isolate(mesh: bpy.types.Mesh, shown: np.ndarray) -> None:
     _leave_out(mesh, ~shown, ~shown)
 
 
-def show_all(mesh: bpy.types.Mesh) -> None:
-    """Show every face, those that the user hid in Edit Mode, too; Object Mode."""
-    forget_mesh(mesh)
-    selection.hide_faces(mesh, np.zeros(len(mesh.polygons), bool))
-
-
 def _leave_out(mesh: bpy.types.Mesh, ours: np.ndarray, every: np.ndarray) -> None:
     """Hide some faces, (p,) bool, in Edit Mode and those of ours in Object Mode, too."""
     users = _hidden_by_user(mesh) & ours
     selection.hide_faces(mesh, every)
     if not ours.any():
-        forget_mesh(mesh)
+        for obj in targets.users(mesh):
+            forget(obj)
+        remove_attributes(mesh)
         return
-    transaction.keep_mesh(mesh)
     name = add_attribute(mesh, ATTRIBUTE if ATTRIBUTE in mesh.attributes else "", ATTRIBUTE, "BOOLEAN", "FACE")
     mesh.attributes[name].data.foreach_set("value", ours)
-    remove_attribute(mesh, _KEPT)
-    if users.any():
-        keep_aside(mesh, users, _KEPT, "BOOLEAN", "FACE")
+    keep_aside(mesh, users, _KEPT, "BOOLEAN", "FACE")
     for obj in targets.users(mesh):
         _ensure(obj, name)
     mesh.update()
@@ -76,20 +69,19 @@ def forget(obj: bpy.types.Object) -> None:
     modifiers.remove_nodes(obj, OURS)
 
 
-def forget_mesh(mesh: bpy.types.Mesh) -> None:
-    """Show the faces of a mesh in Object Mode as they are."""
-    for obj in targets.users(mesh):
-        forget(obj)
-    forget_faces(mesh)
-
-
 def forget_faces(mesh: bpy.types.Mesh) -> None:
     """Show in all modes the faces that the modifiers left out, now that there are none, but for the user's."""
     transaction.keep_mesh(mesh)
     if find_attribute(mesh, ATTRIBUTE, "BOOLEAN", "FACE"):
         selection.hide_faces(mesh, _hidden_by_user(mesh))
-    remove_attribute(mesh, ATTRIBUTE)
-    remove_attribute(mesh, _KEPT)
+    remove_attributes(mesh)
+
+
+def remove_attributes(mesh: bpy.types.Mesh) -> None:
+    """Remove what tells on a mesh which faces we hide."""
+    for name in (ATTRIBUTE, _KEPT):
+        if find_attribute(mesh, name, "BOOLEAN", "FACE"):
+            remove_attribute(mesh, name)
 
 
 def _ensure(obj: bpy.types.Object, attribute: str) -> None:
