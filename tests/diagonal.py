@@ -5,7 +5,7 @@ The environment variable REEB_PARTS_DIAGONAL, a number, is set for all Blenders 
 of what is long and hardly depends on the version, each tries another part. Without it, all is tried.
 
 REEB_PARTS_SIXTHS, such as 12, leaves the second and the third sixth of all tests, always the same ones: where time is
-short, each Blender but the newest tries others.
+short, each Blender tries others.
 """
 
 import os

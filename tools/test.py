@@ -39,9 +39,8 @@ import environments
 from environments import HYPOTHESIS, JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
 
 LINT = environments.lint()
-NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, JSONSCHEMA)
+NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, HYPOTHESIS, JSONSCHEMA)
 PACKAGE = environments.package()
-FUZZ = environments.any_python("fuzz", "numpy", "scipy", PYTEST, HYPOTHESIS)
 OLDEST = Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA))
 
 
@@ -62,25 +61,27 @@ SUITES = {
                          "not bag_of and not test_scale and not test_resolutions"),
     "package": Suite(PACKAGE, "tests/package"),
     "documents": Suite(NEWEST, "tests/documents"),
-    "fuzz-core": Suite(FUZZ, "tests/fuzz/core"),
+    "fuzz-core": Suite(NEWEST, "tests/fuzz/core"),
     "fuzz-blender": Suite(environments.BLENDER_52, "tests/fuzz/blender"),
-    "unit-newest": Suite(NEWEST, "tests/unit"),
     "blender-4.2": Suite(environments.BLENDER_42, "tests/blender"),
     "blender-4.5": Suite(environments.BLENDER_45, "tests/blender"),
     "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
+    "unit-newest": Suite(NEWEST, "tests/unit"),
 }
 # Blender as a module may crash or wait for ever while it is torn down at the end of Python: 4.2 as soon as anything
 # has registered a callback (a command, a handler, an update function), 4.5 in a thread of its own. So it is left.
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: What of their tables the Blenders but the newest try, see tests/diagonal.py.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
-#: Where time is short: what leaves sixths of the operator tests, see there, too, and which: the newest Blender tries
-#: all, as a module or in full, and the older two a sixth each. Of the unit tests, which; the method of 2005 is
-#: tried on models, and on any mesh by tests/fuzz.
+#: Where time is short: what leaves sixths of the operator tests, see there, too, and which: each test is tried in one
+#: Blender, as a module or in full.
 SIXTHS = "REEB_PARTS_SIXTHS"
-BRIEF_SIXTHS = {"blender-4.2": "1", "blender-4.5": "0", "blender-5.2": "0235", "inside": "14"}
-BRIEF_WORDS = {"unit-oldest": "test_everywhere or test_models or (test_pipeline and 2007)",
-               "unit-newest": "not test_pipeline or test_models or not (2005 or 2007)"}
+BRIEF_SIXTHS = {"blender-4.2": "15", "blender-4.5": "3", "blender-5.2": "02", "inside": "4"}
+#: Of the unit tests, which: the method of 2005 is tried on models, and on any mesh by tests/fuzz; an older processor
+#: with one version of NumPy.
+BRIEF_WORDS = {"unit-oldest": "(test_everywhere and not older_processor) or test_models or (test_pipeline and 2007)",
+               "unit-newest": "not test_pipeline or test_models or not (2005 or 2007)",
+               "inside": "not older_processor"}
 #: The suites that can run for long, and how many tests in each share that time.
 LONG = {"fuzz-core": 1, "fuzz-blender": 3}
 COUNTS = "counts.txt"
@@ -146,8 +147,9 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
     elif not arguments.suites:
         _left_out("the installed extension in a full Blender, no --blender was given")
     chosen = [name for name in arguments.suites or SUITES if _has_python(name)]
-    older = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"][:-1]
-    for name in reversed(chosen):  # the longest first
+    in_blender = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"]
+    older = [] if arguments.brief else in_blender[:-1]
+    for name in sorted(chosen, key=[*SUITES].index, reverse=True):  # the longest first
         after = "build" if name == "documents" and arguments.blender else ""
         steps.append(Step(name, _work(name, arguments, for_pytest, scratch, older), after))
     return sorted(steps, key=lambda step: step.alone)
@@ -171,10 +173,8 @@ def _work(name: str, arguments: argparse.Namespace, for_pytest: list[str], scrat
         return partial(_documents, arguments.blender, scratch, for_pytest)
     words, variables = [], {}
     if arguments.brief:
-        variables |= _sixths(name)
-        if name in BRIEF_WORDS:
-            words = ["-k", BRIEF_WORDS[name]]
-            _left_out(f"{name}: all but \"{BRIEF_WORDS[name]}\" (--brief)")
+        variables |= _sixths(name, *(["inside"] if name == "blender-5.2" and not arguments.blender else []))
+        words = _words(name)
     if arguments.fuzz and name in LONG:
         variables |= {"REEB_PARTS_FUZZ": str(60 * arguments.fuzz / LONG[name]),
                       "REEB_PARTS_FUZZ_COUNTS": str(scratch / COUNTS)}
@@ -304,12 +304,24 @@ def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path |
     return _pytest("documents", None, scratch, extra, log, BLENDER=blender, BROWSER=browser or "")
 
 
-def _sixths(name: str) -> dict[str, str]:
-    """The variable that leaves sixths of the operator tests of a step, and says so; nothing for other steps."""
+def _sixths(name: str, *missing: str) -> dict[str, str]:
+    """The variable that leaves sixths of the operator tests of a step, and says so; nothing for other steps.
+
+    missing : steps that do not run, whose sixths this one takes over.
+    """
     if name not in BRIEF_SIXTHS:
         return {}
-    _left_out(f"{name}: of tests/blender all but the sixths {', '.join(BRIEF_SIXTHS[name])} of 0 to 5 (--brief)")
-    return {SIXTHS: BRIEF_SIXTHS[name]}
+    sixths = "".join(sorted(BRIEF_SIXTHS[step] for step in (name, *missing)))
+    _left_out(f"{name}: of tests/blender all but the sixths {', '.join(sixths)} of 0 to 5 (--brief)")
+    return {SIXTHS: sixths}
+
+
+def _words(name: str) -> list[str]:
+    """The options that leave those of the tests of a step that are tried where time is short, and says so."""
+    if name not in BRIEF_WORDS:
+        return []
+    _left_out(f"{name}: all but \"{BRIEF_WORDS[name]}\" (--brief)")
+    return ["-k", BRIEF_WORDS[name]]
 
 
 def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> list[Step]:
@@ -334,13 +346,14 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
         if name == "inside":
             _left_out("installed, inside: the unit tests but for the stored answers" + ("" if brief else
                       "; all but one situation of each operator, and of what tests/diagonal.py names"))
-        command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report)]
+        command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report),
+                   *(_words(name) if brief else [])]
         return _count(name, report, _call(command, log, env=variables))
 
     if not gui:
         _left_out("the real-window tests, no --gui was given")
     # A window test measures how long a person waits, and draws in software: it needs both cores.
-    parts = {"inside": False, "command": False, **({"window": False, "speed": True} if gui else {})}
+    parts = {**({"window": False, "speed": True} if gui else {}), "inside": False, "command": False}
     return [Step("build", build), *(Step(f"installed, {name}", partial(part, name), after="build", alone=alone)
                                     for name, alone in parts.items())]
 
