@@ -3,7 +3,8 @@
 
 The attributes, groups and slots come along, but not what says whose they are. So they are taken for ours only where
 they fit together: the numbers of the parts with their colors, and groups that hold the vertices of their parts. Where
-the mesh has a result, its own outputs stay, and so do materials of both where it has some, too.
+the mesh has a result, its own outputs stay; the joined faces have nothing kept aside as its own ones have, so that what
+they have of the user's is.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def remove(obj: bpy.types.Object) -> bool:
     """Remove what of ours is left on the mesh of an object, if it is certainly ours; Object Mode. Whether it was."""
     mesh = obj.data
     if store.has_result(mesh):
-        return _remove_joined(obj)
+        return len(mesh.polygons) > mesh.reeb_parts.n_faces and _remove_joined(obj)
     if not may_be(mesh):
         return False
     numbers = _numbers(mesh)
@@ -49,7 +50,7 @@ def remove(obj: bpy.types.Object) -> bool:
     for name in _groups(user, numbers):
         vertex_groups.remove_one(user, name)
     ours = numbers > 0
-    seams.take_back(mesh, ours)
+    seams.take_back(mesh, numbers)
     face_sets.take_back(mesh, numbers)
     materials.take_back(mesh, ours)
     hidden.remove_attributes(mesh)
@@ -64,24 +65,32 @@ def remove(obj: bpy.types.Object) -> bool:
 def _remove_joined(obj: bpy.types.Object) -> bool:
     """What ``remove`` does for a mesh that has a result, and faces behind those of the result."""
     mesh, result = obj.data, obj.data.reeb_parts
-    if len(mesh.polygons) <= result.n_faces or not _has_both(mesh):
-        return False
-    numbers = _numbers(mesh)
-    numbers[: result.n_faces] = 0
-    if not _one_color_each(mesh, numbers):
-        return False
-    user, own = targets.users(mesh)[0], {part.group for part in result.parts}
-    names = [name for name in _groups(user, numbers) if name not in own]
-    ours = numbers > 0
+    numbers = _numbers(mesh) if _has_both(mesh) else np.zeros(len(mesh.polygons), np.int32)
+    new = np.arange(len(mesh.polygons)) >= result.n_faces
+    numbers[~new] = 0
     transaction.keep_mesh(mesh)
+    joined = bool(materials.of_others(mesh))
+    if _one_color_each(mesh, numbers):
+        joined |= _remove_groups(obj, numbers)
+        if joined:  # else the faces may be extruded ones of the mesh itself
+            face_sets.take_back(mesh, numbers)
+        if joined or not result.has_seams:
+            seams.take_back(mesh, numbers)
+    if joined or not result.has_materials:
+        materials.take_back(mesh, numbers > 0 if numbers.any() else new)
+    numbers[:] = 0 if joined else numbers
+    face_sets.keep(mesh, new, numbers)
+    seams.keep(mesh, new, numbers)
+    materials.keep(mesh, new)
+    return joined
+
+
+def _remove_groups(obj: bpy.types.Object, numbers: np.ndarray) -> bool:
+    """Remove the vertex groups of another mesh's parts, which have the numbers, (p,) int32. Whether there were any."""
+    user, own = targets.users(obj.data)[0], {part.group for part in obj.data.reeb_parts.parts}
+    names = [name for name in _groups(user, numbers) if name not in own]
     for name in names:
         vertex_groups.remove_one(user, name)
-    if names and not result.has_face_sets:  # else the faces may be extruded ones of the mesh itself
-        face_sets.take_back(mesh, numbers)
-    if not result.has_seams:
-        seams.take_back(mesh, ours)
-    if not result.has_materials:
-        materials.take_back(mesh, ours)
     return bool(names)
 
 

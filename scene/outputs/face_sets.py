@@ -58,9 +58,31 @@ def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
         if not np.ptp((now - numbers)[numbers > 0]):
             now = np.where(numbers > 0, before, now)
             mesh.attributes[NAME].data.foreach_set("value", now)
-        if (now <= 1).all():  # one set is none
+        if not _are_ours(mesh) and (now <= 1).all():  # one set is none
             remove_attribute(mesh, NAME)
-    remove_attribute(mesh, _KEPT)
+    if not _are_ours(mesh):
+        remove_attribute(mesh, _KEPT)
+
+
+def keep(mesh: bpy.types.Mesh, new: np.ndarray, numbers: np.ndarray) -> None:
+    """Keep the face sets aside of faces that were joined into a mesh with ours, but for ours.
+
+    new : (p,) bool. numbers : (p,) int32, of the parts of faces, 0 for others.
+    """
+    if not _are_ours(mesh) or NAME not in mesh.attributes:
+        return
+    now = mesh_arrays.read(mesh.attributes[NAME].data, "value", np.int32)
+    new = new & (now != numbers)
+    had = mesh.reeb_parts.had_face_sets and _KEPT in mesh.attributes
+    if had or (now[new] > 1).any():
+        before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32) if had else np.ones_like(now)
+        keep_aside(mesh, np.where(new, now, before), _KEPT, "INT", "FACE")
+        mesh.reeb_parts.had_face_sets = True
+
+
+def _are_ours(mesh: bpy.types.Mesh) -> bool:
+    """Whether the face sets are those of the mesh's own parts."""
+    return mesh.is_property_set("reeb_parts") and mesh.reeb_parts.has_face_sets
 
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:

@@ -45,30 +45,61 @@ def remove(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     remove_these(mesh, [part.material for part in result.parts])
     if result.has_materials and _KEPT in mesh.attributes:
-        mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, taken_out(mesh, _KEPT))
-        if not result.had_material_index:
+        slots = taken_out(mesh, _KEPT)
+        mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
+        if not result.had_material_index and not slots.any():
             remove_attribute(mesh, _MATERIAL_INDEX)
     result.has_materials = result.had_material_index = False
 
 
 def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
-    """Remove our materials from faces that came with them from another mesh. ours : (p,) bool.
+    """Remove the materials of another mesh's parts from faces that came with them. ours : (p,) bool.
 
     Blender has renumbered the slots, but not those kept aside: these are counted among the slots that no other face
     uses, as the other mesh had them.
     """
-    marked = [material for material in mesh.materials if material is not None and _OURS in material]
+    own, kept, marked = _own(mesh), is_kept(mesh, _KEPT, "has_materials"), of_others(mesh)
     if _KEPT in mesh.attributes and marked:
         now, before = (mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX),
                        mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
-        used = set(now[~ours].tolist())
-        free = [index for index, material in enumerate(mesh.materials) if material not in marked]
-        own = np.array([index for index in free if index not in used] or free or [0], np.int32)
-        gone = np.isin(now, [index for index, material in enumerate(mesh.materials) if material in marked])
-        slots = np.where(gone, own[np.clip(before, 0, len(own) - 1)], now)
+        used = set((before if kept else now)[~ours].tolist())
+        free = [index for index, material in enumerate(mesh.materials) if material not in {*own, *marked}]
+        theirs = np.array([index for index in free if index not in used] or free or [0], np.int32)
+        slots = np.where(_uses(now, mesh, marked), theirs[np.clip(before, 0, len(theirs) - 1)], now)
         mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
         remove_these(mesh, marked)
-    remove_attribute(mesh, _KEPT)
+    if not kept:
+        remove_attribute(mesh, _KEPT)
+
+
+def of_others(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:
+    """The materials that were made for parts of another mesh, as far as they have the names that we gave them."""
+    own = _own(mesh)
+    return [material for material in mesh.materials
+            if material is not None and material not in own and material.get(_OURS) == material.name]
+
+
+def keep(mesh: bpy.types.Mesh, new: np.ndarray) -> None:
+    """Keep aside which slots faces use that were joined into a mesh with materials of ours, but for ours.
+
+    new : (p,) bool.
+    """
+    if is_kept(mesh, _KEPT, "has_materials"):
+        now, before = (mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX),
+                       mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
+        slots = np.where(new & ~_uses(now, mesh, _own(mesh)), now, before)
+        mesh.attributes[_KEPT].data.foreach_set("value", slots)
+
+
+def _own(mesh: bpy.types.Mesh) -> set[bpy.types.Material]:
+    """The materials of the mesh's own parts."""
+    parts = mesh.reeb_parts.parts if mesh.is_property_set("reeb_parts") else ()
+    return {part.material for part in parts if part.material is not None}
+
+
+def _uses(slots: np.ndarray, mesh: bpy.types.Mesh, materials: Container[bpy.types.Material]) -> np.ndarray:
+    """Whether slots, (p,), hold some of these materials, (p,) bool."""
+    return np.isin(slots, [index for index, material in enumerate(mesh.materials) if material in materials])
 
 
 def remove_these(mesh: bpy.types.Mesh, made: Iterable[bpy.types.Material | None]) -> None:
@@ -88,10 +119,14 @@ def remove_these(mesh: bpy.types.Mesh, made: Iterable[bpy.types.Material | None]
 
 
 def drop_slots(mesh: bpy.types.Mesh, gone: Container[bpy.types.Material]) -> None:
-    """Remove the slots of some materials."""
-    for index, material in reversed(list(enumerate(mesh.materials))):
-        if material in gone:
-            mesh.materials.pop(index=index)
+    """Remove the slots of some materials; those behind them have other numbers then, which are kept aside as well."""
+    dropped = [index for index, material in enumerate(mesh.materials) if material in gone]
+    for index in reversed(dropped):
+        mesh.materials.pop(index=index)
+    if dropped and _KEPT in mesh.attributes:
+        before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
+        moved = (before - np.searchsorted(dropped, before)).astype(np.int32)
+        mesh.attributes[_KEPT].data.foreach_set("value", moved)
 
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:

@@ -38,22 +38,46 @@ def remove(obj: bpy.types.Object) -> None:
     mesh = obj.data
     result = mesh.reeb_parts
     if result.has_seams and _KEPT in mesh.attributes:
-        mesh_arrays.set_element_values(mesh, "edges", "use_seam", taken_out(mesh, _KEPT))
-        if not result.had_seams and (name := _seam_name(mesh)):
+        seams = taken_out(mesh, _KEPT)
+        mesh_arrays.set_element_values(mesh, "edges", "use_seam", seams)
+        if not result.had_seams and not seams.any() and (name := _seam_name(mesh)):
             remove_attribute(mesh, name)
     result.has_seams = result.had_seams = False
 
 
-def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
-    """Bring the user's seams back of faces that came with ours from another mesh. ours : (p,) bool."""
+def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
+    """Bring the user's seams back of faces that came with ours from another mesh.
+
+    numbers : (p,) int32, of the parts of these faces, 0 for others.
+    """
     if _KEPT not in mesh.attributes:
         return
     now, before = (mesh_arrays.element_values(mesh, "edges", "use_seam"),
                    mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool))
+    cut = mesh_arrays.cut_edges(mesh, numbers) & _edges_of(mesh, numbers > 0)
+    if now[cut].all():  # else the other mesh had none of ours, and nothing kept aside
+        mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(cut, before, now))
+    if not is_kept(mesh, _KEPT, "has_seams"):
+        remove_attribute(mesh, _KEPT)
+
+
+def keep(mesh: bpy.types.Mesh, new: np.ndarray, numbers: np.ndarray) -> None:
+    """Keep the seams aside of faces that were joined into a mesh with ours, but for those where parts meet.
+
+    new : (p,) bool. numbers : (p,) int32, of the parts of faces, 0 for others.
+    """
+    if is_kept(mesh, _KEPT, "has_seams"):
+        now, before = (mesh_arrays.element_values(mesh, "edges", "use_seam"),
+                       mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool))
+        there = _edges_of(mesh, new) & ~_edges_of(mesh, ~new) & ~mesh_arrays.cut_edges(mesh, numbers)
+        mesh.attributes[_KEPT].data.foreach_set("value", np.where(there, now, before))
+
+
+def _edges_of(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """The edges of some faces, (e,) bool. faces : (p,) bool."""
     there = np.zeros(len(mesh.edges), bool)
-    there[mesh_arrays.corner_edges(mesh)[np.repeat(ours, mesh_arrays.face_sizes(mesh))]] = True
-    mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(there, before, now))
-    remove_attribute(mesh, _KEPT)
+    there[mesh_arrays.corner_edges(mesh)[np.repeat(faces, mesh_arrays.face_sizes(mesh))]] = True
+    return there
 
 
 def _seam_name(mesh: bpy.types.Mesh) -> str | None:

@@ -73,6 +73,62 @@ def test_what_came_into_a_decomposed_object_is_ours(make, after):
     assert into.vertex_groups.keys() == ["Part 99"]
 
 
+@pytest.mark.parametrize("with_parts", [False, True])
+@pytest.mark.parametrize("after", ["clear", "decompose", "decompose with the same outputs"])
+def test_what_is_joined_into_a_model_with_outputs_keeps_materials_seams_and_face_sets(make, with_parts, after):
+    """All joined faces had the first slot of the model then, no seams and no face sets."""
+    outputs = {"graph": False, "materials": True, "seams": True, "face_sets": True}
+    into, tree = make(shapes.tube_tree(), "Into"), make(shapes.tube_tree(), "Tree")
+    into.data.transform(Matrix.Translation((20, 0, 0)))
+    for obj, names in ((into, ["Steel"]), (tree, ["Gold", "Silver"])):
+        for name in names:
+            obj.data.materials.append(bpy.data.materials.new(name))
+    tree.data.polygons[7].material_index = 1
+    tree.data.edges[3].use_seam = into.data.edges[5].use_seam = True
+    sets = tree.data.attributes.new(".sculpt_face_set", "INT", "FACE")
+    sets.data.foreach_set("value", np.arange(len(tree.data.polygons), dtype=np.int32) % 2 + 1)
+    for obj in (into, tree)[: 1 + with_parts]:
+        activate(obj)
+        bpy.ops.reeb_parts.decompose(**outputs)
+    activate(into)
+    tree.select_set(True)
+    bpy.ops.object.join()
+    if after != "clear":
+        bpy.ops.reeb_parts.decompose(**(outputs if after.endswith("outputs") else {"graph": False}))
+    bpy.ops.reeb_parts.clear()
+    mesh = into.data
+    assert [material.name for material in mesh.materials] == ["Steel", "Gold", "Silver"]
+    joined = np.array([polygon.center.x < 10 for polygon in mesh.polygons])
+    used = np.array([polygon.material_index for polygon in mesh.polygons])
+    other = np.flatnonzero(joined)[7]
+    assert used[other] == 2
+    assert (np.delete(used, other) == np.delete(joined, other)).all()
+    assert sum(edge.use_seam for edge in mesh.edges) == 2
+    there = np.array([item.value for item in mesh.attributes[".sculpt_face_set"].data])
+    assert (len(set(there[joined])), len(set(there[~joined]))) == (2, 1)
+    assert not any(name.startswith(".reeb") for name in mesh.attributes.keys())
+
+
+@pytest.mark.parametrize("after", ["clear", "decompose"])
+def test_of_extruded_faces_no_material_of_a_part_is_kept(make, after):
+    """They carry on what the faces had from which they come."""
+    obj = make(shapes.tube_tree(), "Tree")
+    obj.data.materials.append(bpy.data.materials.new("Gold"))
+    bpy.ops.reeb_parts.decompose(graph=False, materials=True, seams=True, face_sets=True)
+    with bpy.context.temp_override(active_object=obj, object=obj):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.duplicate()
+        bpy.ops.transform.translate(value=(0, 0, 5))
+        bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.reeb_parts.decompose(graph=False) if after == "decompose" else None
+    bpy.ops.reeb_parts.clear()
+    assert [material.name for material in obj.data.materials] == ["Gold"]
+    assert not any(polygon.material_index for polygon in obj.data.polygons)
+    assert not any(edge.use_seam for edge in obj.data.edges)
+    assert ".sculpt_face_set" not in obj.data.attributes
+
+
 def test_attributes_of_the_user_that_are_called_as_ours_stay(obj):
     mesh = obj.data
     numbers = mesh.attributes.new("reeb_part", "INT", "FACE")
