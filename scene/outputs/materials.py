@@ -35,6 +35,7 @@ def add(obj: bpy.types.Object) -> None:
     if not result.has_materials:
         result.had_material_index = _MATERIAL_INDEX in mesh.attributes
         keep_aside(mesh, mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), _KEPT, "INT", "FACE")
+        _keep_slots(mesh)
         result.has_materials = True
 
 
@@ -45,11 +46,42 @@ def remove(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     remove_these(mesh, [part.material for part in result.parts])
     if result.has_materials and _KEPT in mesh.attributes:
-        slots = taken_out(mesh, _KEPT)
+        slots = _brought_back(mesh, taken_out(mesh, _KEPT))
         mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
         if not result.had_material_index and not slots.any():
             remove_attribute(mesh, _MATERIAL_INDEX)
     result.has_materials = result.had_material_index = False
+    result.former_slots.clear()
+
+
+def _keep_slots(mesh: bpy.types.Mesh) -> None:
+    """Remember the materials in the slots, which the user may move or, as none of them is used, remove."""
+    mesh.reeb_parts.former_slots.clear()
+    for material in mesh.materials:
+        mesh.reeb_parts.former_slots.add().material = material
+
+
+def _brought_back(mesh: bpy.types.Mesh, former: np.ndarray) -> np.ndarray:
+    """The slots in which the materials of former ones are now, (p,) int32; those that are missing are made again."""
+    materials = [slot.material for slot in mesh.reeb_parts.former_slots]
+    used, place = np.unique(former, return_inverse=True)
+    # A result of a version that did not remember them has none.
+    slots = [_brought_back_one(mesh, materials, index) if 0 <= index < len(materials) else index
+             for index in used.tolist()]
+    return np.array(slots, np.int32)[place.ravel()]
+
+
+def _brought_back_one(mesh: bpy.types.Mesh, materials: list[bpy.types.Material | None], index: int) -> int:
+    """What ``_brought_back`` does for one slot."""
+    now = list(mesh.materials)
+    if index < len(now) and now[index] == materials[index]:
+        return index
+    if materials[index] in now:
+        return now.index(materials[index])
+    if index < len(now) and now[index] not in materials:  # the user has put another one there
+        return index
+    mesh.materials.append(materials[index])
+    return len(now)
 
 
 def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
@@ -62,7 +94,7 @@ def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
     if _KEPT in mesh.attributes and marked:
         now, before = (mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX),
                        mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
-        used = set((before if kept else now)[~ours].tolist())
+        used = set((_brought_back(mesh, before[~ours]) if kept else now[~ours]).tolist())
         free = [index for index, material in enumerate(mesh.materials) if material not in {*own, *marked}]
         theirs = np.array([index for index in free if index not in used] or free or [0], np.int32)
         slots = np.where(_uses(now, mesh, marked), theirs[np.clip(before, 0, len(theirs) - 1)], now)
@@ -84,11 +116,21 @@ def keep(mesh: bpy.types.Mesh, new: np.ndarray) -> None:
 
     new : (p,) bool.
     """
-    if is_kept(mesh, _KEPT, "has_materials"):
-        now, before = (mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX),
-                       mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
-        slots = np.where(new & ~_uses(now, mesh, _own(mesh)), now, before)
-        mesh.attributes[_KEPT].data.foreach_set("value", slots)
+    if not is_kept(mesh, _KEPT, "has_materials"):
+        return
+    former, slots = mesh.reeb_parts.former_slots, mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
+    if not len(former):  # as in a result of a version that did not remember them
+        _keep_slots(mesh)
+    now, materials = mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), list(mesh.materials)
+    theirs = new & ~_uses(now, mesh, _own(mesh))
+    known = [slot.material for slot in former]
+    for index in np.unique(now[theirs]).tolist():
+        material = materials[index] if index < len(materials) else None
+        if material not in known:
+            former.add().material = material
+            known.append(material)
+        slots[theirs & (now == index)] = known.index(material)
+    mesh.attributes[_KEPT].data.foreach_set("value", slots)
 
 
 def _own(mesh: bpy.types.Mesh) -> set[bpy.types.Material]:
@@ -119,14 +161,10 @@ def remove_these(mesh: bpy.types.Mesh, made: Iterable[bpy.types.Material | None]
 
 
 def drop_slots(mesh: bpy.types.Mesh, gone: Container[bpy.types.Material]) -> None:
-    """Remove the slots of some materials; those behind them have other numbers then, which are kept aside as well."""
-    dropped = [index for index, material in enumerate(mesh.materials) if material in gone]
-    for index in reversed(dropped):
-        mesh.materials.pop(index=index)
-    if dropped and _KEPT in mesh.attributes:
-        before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
-        moved = (before - np.searchsorted(dropped, before)).astype(np.int32)
-        mesh.attributes[_KEPT].data.foreach_set("value", moved)
+    """Remove the slots of some materials."""
+    for index, material in reversed(list(enumerate(mesh.materials))):
+        if material in gone:
+            mesh.materials.pop(index=index)
 
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:

@@ -66,6 +66,12 @@ class ReebName(bpy.types.PropertyGroup):
     color: FloatVectorProperty(subtype="COLOR_GAMMA", size=3)
 
 
+class ReebSlot(bpy.types.PropertyGroup):
+    """A material slot of the user, from before the parts had materials."""
+
+    material: PointerProperty(type=bpy.types.Material)
+
+
 class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     """A decomposition and what was written of it; on the mesh."""
 
@@ -120,6 +126,7 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     former_render_color: StringProperty()
     had_face_sets: BoolProperty()
     had_material_index: BoolProperty()
+    former_slots: CollectionProperty(type=ReebSlot)
     had_seams: BoolProperty()
 
     def watched(self) -> dict[str, Any]:
@@ -163,7 +170,7 @@ class ReebPartsMade(bpy.types.PropertyGroup, Settled):
         return {"explode": self.explode}
 
 
-CLASSES = (ReebPartsSettings, ReebPartsUse, ReebPart, ReebName, ReebPartsResult, ReebCut, ReebPartsMade)
+CLASSES = (ReebPartsSettings, ReebPartsUse, ReebPart, ReebName, ReebSlot, ReebPartsResult, ReebCut, ReebPartsMade)
 POINTERS = (
     (bpy.types.Scene, "reeb_parts", ReebPartsSettings),
     (bpy.types.Scene, "reeb_parts_use", ReebPartsUse),

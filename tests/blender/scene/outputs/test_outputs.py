@@ -179,6 +179,47 @@ def test_many_vertex_groups_do_not_slow_down_what_is_read_and_written_of_faces_a
     assert time.process_time() - began < 0.2  # 3 s where Blender looks for each
 
 
+def remove_unused(obj):
+    bpy.ops.object.material_slot_remove_unused()
+    return "Red", "Green"
+
+
+def move(obj):
+    obj.active_material_index = 0
+    bpy.ops.object.material_slot_move(direction="DOWN")
+    return "Red", "Green"
+
+
+def remove_one(obj):
+    obj.active_material_index = 1
+    bpy.ops.object.material_slot_remove()
+    return "Red", "Green"
+
+
+def put_another_into_it(obj):
+    obj.material_slots[1].material = bpy.data.materials.new("Blue")
+    return "Red", "Blue"
+
+
+def remove_material(obj):
+    bpy.data.materials.remove(bpy.data.materials["Green"])
+    return "Red", ""
+
+
+@pytest.mark.parametrize("again", [False, True])
+@pytest.mark.parametrize("change", [remove_unused, move, remove_one, put_another_into_it, remove_material])
+def test_faces_get_their_materials_back_whatever_became_of_the_slots(owned, change, again):
+    """None of them is used while parts have materials: Remove Unused Slots left faces without any."""
+    bpy.ops.reeb_parts.decompose(materials=True)
+    expected = change(owned)
+    bpy.ops.reeb_parts.decompose(materials=True, n_parts=3) if again else None
+    bpy.ops.reeb_parts.clear()
+    names = [slot.name for slot in owned.material_slots]
+    assert [names[polygon.material_index] for polygon in owned.data.polygons] == [
+        expected[polygon.index % 2] for polygon in owned.data.polygons]
+    assert set(names) == set(expected)
+
+
 def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path):
     bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.materials.new("Part 01")}, fake_user=True)
     bpy.data.materials.remove(bpy.data.materials["Part 01"])
