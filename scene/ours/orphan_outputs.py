@@ -50,7 +50,7 @@ def remove(obj: bpy.types.Object) -> bool:
     for name in _groups(user, numbers):
         vertex_groups.remove_one(user, name)
     ours = numbers > 0
-    seams.take_back(mesh, numbers)
+    seams.take_back(mesh, ours)
     face_sets.take_back(mesh, numbers)
     materials.take_back(mesh, ours)
     hidden.remove_attributes(mesh)
@@ -74,14 +74,10 @@ def _remove_joined(obj: bpy.types.Object) -> bool:
         joined |= _remove_groups(obj, numbers)
         if joined:  # else the faces may be extruded ones of the mesh itself
             face_sets.take_back(mesh, numbers)
-        if joined or not result.has_seams:
-            seams.take_back(mesh, numbers)
+        seams.take_back(mesh, numbers > 0)
     if joined or not result.has_materials:
         materials.take_back(mesh, numbers > 0 if numbers.any() else new)
-    numbers[:] = 0 if joined else numbers
-    face_sets.keep(mesh, new, numbers)
-    seams.keep(mesh, new, numbers)
-    materials.keep(mesh, new)
+    face_sets.keep(mesh, new, np.zeros_like(numbers) if joined else numbers)
     return joined
 
 

@@ -44,6 +44,7 @@ def remove(obj: bpy.types.Object) -> None:
     transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
+    keep(mesh)
     remove_these(mesh, [part.material for part in result.parts])
     if result.has_materials and _KEPT in mesh.attributes:
         slots = _brought_back(mesh, taken_out(mesh, _KEPT))
@@ -56,8 +57,9 @@ def remove(obj: bpy.types.Object) -> None:
 
 def _keep_slots(mesh: bpy.types.Mesh) -> None:
     """Remember the materials in the slots, which the user may move or, as none of them is used, remove."""
+    own = _own(mesh)
     mesh.reeb_parts.former_slots.clear()
-    for material in mesh.materials:
+    for material in [material for material in mesh.materials if material not in own] or [None]:
         mesh.reeb_parts.former_slots.add().material = material
 
 
@@ -73,14 +75,14 @@ def _brought_back(mesh: bpy.types.Mesh, former: np.ndarray) -> np.ndarray:
 
 def _brought_back_one(mesh: bpy.types.Mesh, materials: list[bpy.types.Material | None], index: int) -> int:
     """What ``_brought_back`` does for one slot."""
-    now = list(mesh.materials)
-    if index < len(now) and now[index] == materials[index]:
+    now, material = list(mesh.materials), materials[index]
+    if material in now[index : index + 1] or (material is None and not now):
         return index
-    if materials[index] in now:
-        return now.index(materials[index])
-    if index < len(now) and now[index] not in materials:  # the user has put another one there
-        return index
-    mesh.materials.append(materials[index])
+    if material in now:
+        return now.index(material)
+    if material is not None and index < len(materials) <= len(now) and now[index] not in materials:
+        return index  # the user has put another one there
+    mesh.materials.append(material)
     return len(now)
 
 
@@ -111,25 +113,21 @@ def of_others(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:
             if material is not None and material not in own and material.get(_OURS) == material.name]
 
 
-def keep(mesh: bpy.types.Mesh, new: np.ndarray) -> None:
-    """Keep aside which slots faces use that were joined into a mesh with materials of ours, but for ours.
-
-    new : (p,) bool.
-    """
+def keep(mesh: bpy.types.Mesh) -> None:
+    """Keep aside which slots faces use that have none of ours: new ones, and those to which the user gave another."""
     if not is_kept(mesh, _KEPT, "has_materials"):
         return
     former, slots = mesh.reeb_parts.former_slots, mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
     if not len(former):  # as in a result of a version that did not remember them
         _keep_slots(mesh)
-    now, materials = mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), list(mesh.materials)
-    theirs = new & ~_uses(now, mesh, _own(mesh))
-    known = [slot.material for slot in former]
-    for index in np.unique(now[theirs]).tolist():
-        material = materials[index] if index < len(materials) else None
-        if material not in known:
-            former.add().material = material
-            known.append(material)
-        slots[theirs & (now == index)] = known.index(material)
+    now, own = mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), _own(mesh)
+    known, used = [slot.material for slot in former], set(np.unique(now).tolist())
+    for index, material in enumerate(mesh.materials):
+        if index in used and material not in own:
+            if material not in known:
+                former.add().material = material
+                known.append(material)
+            slots[now == index] = known.index(material)
     mesh.attributes[_KEPT].data.foreach_set("value", slots)
 
 

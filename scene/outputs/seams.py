@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV seams where parts meet, beside the user's own."""
+"""UV seams where parts meet, beside the user's own.
+
+What is a seam elsewhere, or is none any more, is so because the user wanted it, before or since.
+"""
 
 from __future__ import annotations
 
@@ -9,26 +12,37 @@ import numpy as np
 from ...core.result.numbering import NumberedParts
 from .. import transaction
 from ..reading import mesh_arrays
-from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
+from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute
 
 _KEPT = f"{PREFIX}_seam"
+# What is kept aside of each edge: whether we made it a seam, and whether it was one of the user's as well. Edges that
+# come with another object have 0.
+_OURS, _BOTH = 1, 2
 
 
 def own(mesh: bpy.types.Mesh) -> np.ndarray:
     """Which edges are seams of the user, (e,) bool."""
-    if is_kept(mesh, _KEPT, "has_seams"):
-        return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
-    return mesh_arrays.element_values(mesh, "edges", "use_seam")
+    return (_theirs(mesh) if is_kept(mesh, _KEPT, "has_seams")
+            else mesh_arrays.element_values(mesh, "edges", "use_seam"))
+
+
+def _theirs(mesh: bpy.types.Mesh) -> np.ndarray:
+    """What ``own`` returns where something is kept aside."""
+    now, kept = (mesh_arrays.element_values(mesh, "edges", "use_seam"),
+                 mesh_arrays.attribute_values(mesh.attributes[_KEPT]))
+    if kept.dtype == bool:  # by a version that kept the user's seams
+        return now & kept
+    return now & ((kept == 0) | (kept == _BOTH))
 
 
 def add(obj: bpy.types.Object) -> None:
-    """Keep aside which seams the user has."""
+    """Make room for which seams are ours."""
     transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     if not is_kept(mesh, _KEPT, "has_seams"):
         result.had_seams = _seam_name(mesh) is not None
-        keep_aside(mesh, mesh_arrays.element_values(mesh, "edges", "use_seam"), _KEPT, "BOOLEAN", "EDGE")
+        keep_aside(mesh, np.zeros(len(mesh.edges), np.int8), _KEPT, "INT8", "EDGE")
         result.has_seams = True
 
 
@@ -38,39 +52,21 @@ def remove(obj: bpy.types.Object) -> None:
     mesh = obj.data
     result = mesh.reeb_parts
     if result.has_seams and _KEPT in mesh.attributes:
-        seams = taken_out(mesh, _KEPT)
+        seams = _theirs(mesh)
+        remove_attribute(mesh, _KEPT)
         mesh_arrays.set_element_values(mesh, "edges", "use_seam", seams)
         if not result.had_seams and not seams.any() and (name := _seam_name(mesh)):
             remove_attribute(mesh, name)
     result.has_seams = result.had_seams = False
 
 
-def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
-    """Bring the user's seams back of faces that came with ours from another mesh.
-
-    numbers : (p,) int32, of the parts of these faces, 0 for others.
-    """
-    if _KEPT not in mesh.attributes:
+def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
+    """Leave the user's seams alone of faces that came with ours from another mesh. ours : (p,) bool."""
+    if _KEPT not in mesh.attributes or is_kept(mesh, _KEPT, "has_seams"):
         return
-    now, before = (mesh_arrays.element_values(mesh, "edges", "use_seam"),
-                   mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool))
-    cut = mesh_arrays.cut_edges(mesh, numbers) & _edges_of(mesh, numbers > 0)
-    if now[cut].all():  # else the other mesh had none of ours, and nothing kept aside
-        mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(cut, before, now))
-    if not is_kept(mesh, _KEPT, "has_seams"):
-        remove_attribute(mesh, _KEPT)
-
-
-def keep(mesh: bpy.types.Mesh, new: np.ndarray, numbers: np.ndarray) -> None:
-    """Keep the seams aside of faces that were joined into a mesh with ours, but for those where parts meet.
-
-    new : (p,) bool. numbers : (p,) int32, of the parts of faces, 0 for others.
-    """
-    if is_kept(mesh, _KEPT, "has_seams"):
-        now, before = (mesh_arrays.element_values(mesh, "edges", "use_seam"),
-                       mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool))
-        there = _edges_of(mesh, new) & ~_edges_of(mesh, ~new) & ~mesh_arrays.cut_edges(mesh, numbers)
-        mesh.attributes[_KEPT].data.foreach_set("value", np.where(there, now, before))
+    now = mesh_arrays.element_values(mesh, "edges", "use_seam")
+    mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(_edges_of(mesh, ours), _theirs(mesh), now))
+    remove_attribute(mesh, _KEPT)
 
 
 def _edges_of(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
@@ -89,6 +85,9 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the seams up to date, if we have added some."""
     if not is_kept(mesh, _KEPT, "has_seams"):
         return
-    seams = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool)
-    seams |= mesh_arrays.cut_edges(mesh, numbered.face_numbers)
-    mesh_arrays.set_element_values(mesh, "edges", "use_seam", seams)
+    theirs, cut = _theirs(mesh), mesh_arrays.cut_edges(mesh, numbered.face_numbers)
+    if mesh.attributes[_KEPT].data_type != "INT8":
+        keep_aside(mesh, np.zeros(len(cut), np.int8), _KEPT, "INT8", "EDGE")
+    kept = np.where(cut, np.where(theirs, _BOTH, _OURS), 0)
+    mesh_arrays.set_attribute_values(mesh.attributes[_KEPT], kept.astype(np.int8))
+    mesh_arrays.set_element_values(mesh, "edges", "use_seam", theirs | cut)

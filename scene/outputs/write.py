@@ -61,6 +61,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
     """
     mesh = obj.data
     transaction.keep_mesh(mesh)
+    materials.keep(mesh)
     old = part_names.number_colors(mesh)
     gone = _list_parts(mesh, numbered)
     new = part_names.number_colors(mesh)

@@ -220,6 +220,38 @@ def test_faces_get_their_materials_back_whatever_became_of_the_slots(owned, chan
     assert set(names) == set(expected)
 
 
+@pytest.mark.parametrize("again", [False, True])
+def test_materials_that_are_given_by_hand_meanwhile_stay(obj, again):
+    """Faces that had none, as the mesh had no slot, have an empty one."""
+    bpy.ops.reeb_parts.decompose(materials=True)
+    obj.data.materials.append(bpy.data.materials.new("Gold"))
+    for polygon in obj.data.polygons[:100]:
+        polygon.material_index = len(obj.data.materials) - 1
+    bpy.ops.reeb_parts.decompose(materials=True, n_parts=3) if again else None
+    bpy.ops.reeb_parts.clear()
+    found = [obj.material_slots[polygon.material_index].name for polygon in obj.data.polygons]
+    assert found == ["Gold"] * 100 + [""] * (len(found) - 100)
+
+
+@pytest.mark.parametrize("after", ["detail", "decompose", "clear"])
+def test_seams_that_are_marked_by_hand_meanwhile_stay(owned, after):
+    """A drag of Detail took them away, and brought those back that had been cleared."""
+    bpy.ops.reeb_parts.decompose(seams=True)
+    edges, rng = owned.data.edges, np.random.default_rng(0)
+    before = np.array([edge.index % 5 == 0 for edge in edges])
+    there = np.array([edge.use_seam for edge in edges])
+    marked = rng.random(len(edges)) < 0.1
+    marked[there] = False
+    cleared = before & (rng.random(len(edges)) < 0.5)
+    edges.foreach_set("use_seam", (there | marked) & ~cleared)
+    if after == "detail":
+        owned.data.reeb_parts.detail = 0.9
+    elif after == "decompose":
+        bpy.ops.reeb_parts.decompose(seams=True, n_parts=3)
+    bpy.ops.reeb_parts.clear()
+    assert np.array_equal([edge.use_seam for edge in edges], (before | marked) & ~cleared)
+
+
 def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path):
     bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.materials.new("Part 01")}, fake_user=True)
     bpy.data.materials.remove(bpy.data.materials["Part 01"])
