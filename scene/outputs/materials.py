@@ -114,20 +114,28 @@ def of_others(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:
 
 
 def keep(mesh: bpy.types.Mesh) -> None:
-    """Keep aside which slots faces use that have none of ours: new ones, and those to which the user gave another."""
+    """Keep aside which slots faces use that have none of ours: new ones, and those to which the user gave another.
+
+    An empty slot counts of new ones alone; of others it may be that of a part's material, which was deleted.
+    """
     if not is_kept(mesh, _KEPT, "has_materials"):
         return
     former, slots = mesh.reeb_parts.former_slots, mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
     if not len(former):  # as in a result of a version that did not remember them
         _keep_slots(mesh)
     now, own = mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), _own(mesh)
-    known, used = [slot.material for slot in former], set(np.unique(now).tolist())
+    known = [slot.material for slot in former]
     for index, material in enumerate(mesh.materials):
-        if index in used and material not in own:
+        if material in own:
+            continue
+        there = now == index
+        if material is None:
+            there[: mesh.reeb_parts.n_faces] = False
+        if there.any():
             if material not in known:
                 former.add().material = material
                 known.append(material)
-            slots[now == index] = known.index(material)
+            slots[there] = known.index(material)
     mesh.attributes[_KEPT].data.foreach_set("value", slots)
 
 
