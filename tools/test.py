@@ -54,15 +54,15 @@ class Suite:
 
 
 SUITES = {
-    # In the order of how long they take, so that a short one is the last to end.
+    # About in the order of how long they take, so that a short one is the last to end.
+    "fuzz-core": Suite(NEWEST, "tests/fuzz/core"),
     # Whole runs, but for what takes long; single stages are in unit-newest alone, and what is made of parts runs in
     # Blender 4.2 with the same NumPy. That the versions agree is held by the stored answers of test_everywhere.py.
     "unit-oldest": Suite(OLDEST, "tests/unit/test_*.py", "not 2005 and not 2007 and not test_cost and not huge and "
                          "not bag_of and not test_scale and not test_resolutions"),
-    "package": Suite(PACKAGE, "tests/package"),
-    "documents": Suite(NEWEST, "tests/documents"),
-    "fuzz-core": Suite(NEWEST, "tests/fuzz/core"),
     "fuzz-blender": Suite(environments.BLENDER_52, "tests/fuzz/blender"),
+    "documents": Suite(NEWEST, "tests/documents"),
+    "package": Suite(PACKAGE, "tests/package"),
     "blender-4.2": Suite(environments.BLENDER_42, "tests/blender"),
     "blender-4.5": Suite(environments.BLENDER_45, "tests/blender"),
     "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
@@ -77,10 +77,10 @@ DIAGONAL = "REEB_PARTS_DIAGONAL"
 #: Blender, as a module or in full.
 SIXTHS = "REEB_PARTS_SIXTHS"
 BRIEF_SIXTHS = {"blender-4.2": "15", "blender-4.5": "3", "blender-5.2": "02", "inside": "4"}
-#: Of the unit tests, which: the method of 2005 is tried on models, and on any mesh by tests/fuzz; an older processor
-#: with one version of NumPy.
-BRIEF_WORDS = {"unit-oldest": "(test_everywhere and not older_processor) or test_models or (test_pipeline and 2007)",
-               "unit-newest": "not test_pipeline or test_models or not (2005 or 2007)",
+#: Of the unit tests, which: the methods of 2005 and 2007 are tried on models, and on any mesh by tests/fuzz; an older
+#: processor with one version of NumPy.
+BRIEF_WORDS = {"unit-oldest": "test_models or (test_everywhere and not older_processor)",
+               "unit-newest": "test_models or not (test_pipeline or test_scale) or not (2005 or 2007)",
                "inside": "not older_processor"}
 #: The suites that can run for long, and how many tests in each share that time.
 LONG = {"fuzz-core": 1, "fuzz-blender": 3}
