@@ -150,7 +150,9 @@ def prepare(environment: Environment) -> Path:
     if _run([str(interpreter), "-m", "venv", str(folder)]):
         fail(f"{interpreter} could not make a virtual environment in {folder}.")
     quiet = [] if sys.stderr.isatty() else ["--quiet", "--quiet"]
-    pip = [str(python), "-m", "pip", "install", "--disable-pip-version-check", "--only-binary=:all:", *quiet]
+    # Of all modules most are never imported; those that are get compiled then.
+    pip = [str(python), "-m", "pip", "install", "--disable-pip-version-check", "--only-binary=:all:", "--no-compile",
+           *quiet]
     if environment.packages and _run([*pip, *environment.packages]):
         fail("pip could not install these packages, see above; is there a network, and space on the disk?")
     stamp.write_text(content)

@@ -133,6 +133,8 @@ def main() -> None:
     # Several processes whose NumPy takes every core wait for each other: a small product of matrices takes 100 times as
     # long then.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", str(max(1, (os.cpu_count() or 1) // max(arguments.jobs, 1))))
+    # Hundreds of processes import the same modules, which pip does not compile, see environments.prepare.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     with tempfile.TemporaryDirectory() as scratch:
         outcomes = _run(_steps(arguments, for_pytest, Path(scratch)), arguments.jobs, Path(scratch))
         _tell_counts(Path(scratch) / COUNTS)
@@ -260,8 +262,7 @@ def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], lo
     say(f"{name}: pytest {folder} (Python {environment.python}; {', '.join(environment.packages)})")
     report = scratch / f"{name}.xml"
     # A settings folder of its own keeps the user's Blender preferences and extensions out of it.
-    own = {"BLENDER_USER_RESOURCES": str(scratch / name), "PYTHONDONTWRITEBYTECODE": "1"}
-    variables = {**os.environ, **own, **variables}
+    variables = {**os.environ, "BLENDER_USER_RESOURCES": str(scratch / name), **variables}
     variables.pop("PYTHONPATH", None)
     if diagonal is not None:
         _left_out(f"{name}: all but one situation of each operator, and of what tests/diagonal.py names")

@@ -385,7 +385,8 @@ def test_whatever_words_say_so_a_lack_of_memory_is_one(package, jobs, read, para
         worker.close()
 
 
-def test_a_result_that_cannot_be_written_costs_one_sentence(jobs, read, parameters, capfd):
+def test_a_result_that_cannot_be_written_costs_one_sentence(jobs, read, parameters, capfd, monkeypatch):
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # of modules that it imports by then half would be written
     job = started(jobs, read(shapes.subdivide(shapes.tube_tree())), parameters())
     resource.prlimit(job.pid, resource.RLIMIT_FSIZE, (30_000, 30_000))
     until(lambda: job.poll() or not job.running)
