@@ -5,6 +5,7 @@
 - ``face_attribute``: the number of the part of each face
 - ``colors``: the color of its part
 - ``materials``: a material for each part
+- ``former_slots``: which material slots faces have as the user has it
 - ``face_sets``: face sets of Sculpt Mode
 - ``seams``: UV seams along cuts
 - ``vertex_groups``: a group of vertices for each part

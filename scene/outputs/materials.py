@@ -13,30 +13,17 @@ from ...core.uses.colors import linear
 from .. import renaming, transaction
 from ..reading import mesh_arrays
 from ..result import part_names
-from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
+from . import former_slots
 
-_MATERIAL_INDEX = "material_index"
-_KEPT = f"{PREFIX}_material"
 _OURS = "reeb_parts_material"  # on a material: it was made for a part; the name that we gave it
-
-
-def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
-    """The material slot of each face, (p,) int32, as the user has it."""
-    if is_kept(mesh, _KEPT, "has_materials"):
-        return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
-    return mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX)
 
 
 def add(obj: bpy.types.Object) -> None:
     """Keep aside which material slot each face uses."""
     transaction.keep_mesh(obj.data)
-    mesh = obj.data
-    result = mesh.reeb_parts
-    if not result.has_materials:
-        result.had_material_index = _MATERIAL_INDEX in mesh.attributes
-        keep_aside(mesh, mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), _KEPT, "INT", "FACE")
-        _keep_slots(mesh)
-        result.has_materials = True
+    if not obj.data.reeb_parts.has_materials:
+        former_slots.keep(obj.data)
+        obj.data.reeb_parts.has_materials = True
 
 
 def remove(obj: bpy.types.Object) -> None:
@@ -46,44 +33,14 @@ def remove(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     keep(mesh)
     remove_these(mesh, [part.material for part in result.parts])
-    if result.has_materials and _KEPT in mesh.attributes:
-        slots = _brought_back(mesh, taken_out(mesh, _KEPT))
-        mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
-        if not result.had_material_index and not slots.any():
-            remove_attribute(mesh, _MATERIAL_INDEX)
-    result.has_materials = result.had_material_index = False
-    result.former_slots.clear()
+    former_slots.bring_back(mesh)
+    result.has_materials = False
 
 
-def _keep_slots(mesh: bpy.types.Mesh) -> None:
-    """Remember the materials in the slots, which the user may move or, as none of them is used, remove."""
-    own = _own(mesh)
-    mesh.reeb_parts.former_slots.clear()
-    for material in [material for material in mesh.materials if material not in own] or [None]:
-        mesh.reeb_parts.former_slots.add().material = material
-
-
-def _brought_back(mesh: bpy.types.Mesh, former: np.ndarray) -> np.ndarray:
-    """The slots in which the materials of former ones are now, (p,) int32; those that are missing are made again."""
-    materials = [slot.material for slot in mesh.reeb_parts.former_slots]
-    used, place = np.unique(former, return_inverse=True)
-    # A result of a version that did not remember them has none.
-    slots = [_brought_back_one(mesh, materials, index) if 0 <= index < len(materials) else index
-             for index in used.tolist()]
-    return np.array(slots, np.int32)[place.ravel()]
-
-
-def _brought_back_one(mesh: bpy.types.Mesh, materials: list[bpy.types.Material | None], index: int) -> int:
-    """What ``_brought_back`` does for one slot."""
-    now, material = list(mesh.materials), materials[index]
-    if material in now[index : index + 1] or (material is None and not now):
-        return index
-    if material in now:
-        return now.index(material)
-    if material is not None and index < len(materials) <= len(now) and now[index] not in materials:
-        return index  # the user has put another one there
-    mesh.materials.append(material)
-    return len(now)
+def keep(mesh: bpy.types.Mesh) -> None:
+    """Keep aside what faces were given since the materials were written, before they are written anew or removed."""
+    if former_slots.is_kept(mesh):
+        former_slots.keep_since(mesh, _own(mesh))
 
 
 def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
@@ -92,18 +49,17 @@ def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
     Blender has renumbered the slots, but not those kept aside: these are counted among the slots that no other face
     uses, as the other mesh had them.
     """
-    own, kept, marked = _own(mesh), is_kept(mesh, _KEPT, "has_materials"), of_others(mesh)
-    if _KEPT in mesh.attributes and marked:
-        now, before = (mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX),
-                       mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
-        used = set((_brought_back(mesh, before[~ours]) if kept else now[~ours]).tolist())
+    own, kept, marked, before = _own(mesh), former_slots.is_kept(mesh), of_others(mesh), former_slots.found(mesh)
+    if before is not None and marked:
+        now = former_slots.used_now(mesh)
+        used = set((former_slots.places(mesh, before[~ours]) if kept else now[~ours]).tolist())
         free = [index for index, material in enumerate(mesh.materials) if material not in {*own, *marked}]
         theirs = np.array([index for index in free if index not in used] or free or [0], np.int32)
         slots = np.where(_uses(now, mesh, marked), theirs[np.clip(before, 0, len(theirs) - 1)], now)
-        mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
+        mesh_arrays.set_element_values(mesh, "polygons", former_slots.INDEX, slots)
         remove_these(mesh, marked)
     if not kept:
-        remove_attribute(mesh, _KEPT)
+        former_slots.forget(mesh)
 
 
 def of_others(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:
@@ -111,32 +67,6 @@ def of_others(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:
     own = _own(mesh)
     return [material for material in mesh.materials
             if material is not None and material not in own and material.get(_OURS) == material.name]
-
-
-def keep(mesh: bpy.types.Mesh) -> None:
-    """Keep aside which slots faces use that have none of ours: new ones, and those to which the user gave another.
-
-    An empty slot counts of new ones alone; of others it may be that of a part's material, which was deleted.
-    """
-    if not is_kept(mesh, _KEPT, "has_materials"):
-        return
-    former, slots = mesh.reeb_parts.former_slots, mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
-    if not len(former):  # as in a result of a version that did not remember them
-        _keep_slots(mesh)
-    now, own = mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), _own(mesh)
-    known = [slot.material for slot in former]
-    for index, material in enumerate(mesh.materials):
-        if material in own:
-            continue
-        there = now == index
-        if material is None:
-            there[: mesh.reeb_parts.n_faces] = False
-        if there.any():
-            if material not in known:
-                former.add().material = material
-                known.append(material)
-            slots[there] = known.index(material)
-    mesh.attributes[_KEPT].data.foreach_set("value", slots)
 
 
 def _own(mesh: bpy.types.Mesh) -> set[bpy.types.Material]:
@@ -190,7 +120,7 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
             places[part.material] = len(mesh.materials)
             mesh.materials.append(part.material)
         slots[label] = places[part.material]
-    mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots[numbered.parts.labels])
+    mesh_arrays.set_element_values(mesh, "polygons", former_slots.INDEX, slots[numbered.parts.labels])
 
 
 def _new(name: str, like: bpy.types.Material | None) -> bpy.types.Material:

@@ -79,6 +79,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
 def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the color attribute and the materials up to date with the colors of the list, which stays."""
     transaction.keep_mesh(mesh)
+    materials.keep(mesh)
     colors.write(mesh, numbered.face_numbers, part_names.number_colors(mesh))
     materials.write(mesh, numbered)
     mesh.update()

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.components import components
-from ..outputs import materials, seams
+from ..outputs import former_slots, seams
 from . import mesh_arrays
 
 NONE = "NONE"
@@ -34,7 +34,7 @@ def _between(mesh: bpy.types.Mesh, marked: np.ndarray) -> np.ndarray:
 #: What can be read, by the identifier of the setting: its label, its tooltip, and what reads it.
 KINDS: dict[str, tuple[str, str, Callable[[bpy.types.Mesh], np.ndarray]]] = {
     NONE: ("None", "The shape alone decides", lambda mesh: np.empty(0)),
-    "MATERIALS": ("Materials", "Where the material changes", materials.own_slots),
+    "MATERIALS": ("Materials", "Where the material changes", former_slots.of_faces),
     "SEAMS": ("Seams", "Along UV seams", lambda mesh: _between(mesh, seams.own(mesh))),
     "SHARP": ("Sharp Edges", "Along edges that are marked sharp",
               lambda mesh: _between(mesh, mesh_arrays.element_values(mesh, "edges", "use_edge_sharp"))),

@@ -226,17 +226,34 @@ def test_faces_get_their_materials_back_whatever_became_of_the_slots(owned, chan
     assert {*names, ""} == {*expected, ""}
 
 
-@pytest.mark.parametrize("again", [False, True])
-def test_materials_that_are_given_by_hand_meanwhile_stay(obj, again):
+@pytest.mark.parametrize("after", [
+    lambda obj: None,
+    lambda obj: bpy.ops.reeb_parts.decompose(materials=True, n_parts=3),
+    lambda obj: setattr(obj.data.reeb_parts, "detail", 0.9),
+    lambda obj: setattr(obj.data.reeb_parts.parts[1], "color", (1, 0, 0)),
+    lambda obj: setattr(bpy.context.scene.reeb_parts, "palette", "Pastel"),
+], ids=["clear", "decompose", "detail", "color", "palette"])
+def test_materials_that_are_given_by_hand_meanwhile_stay(obj, after):
     """Faces that had none, as the mesh had no slot, have an empty one."""
     bpy.ops.reeb_parts.decompose(materials=True)
     obj.data.materials.append(bpy.data.materials.new("Gold"))
     for polygon in obj.data.polygons[:100]:
         polygon.material_index = len(obj.data.materials) - 1
-    bpy.ops.reeb_parts.decompose(materials=True, n_parts=3) if again else None
+    after(obj)
     bpy.ops.reeb_parts.clear()
     found = [obj.material_slots[polygon.material_index].name for polygon in obj.data.polygons]
     assert found == ["Gold"] * 100 + [""] * (len(found) - 100)
+
+
+def test_of_two_slots_with_one_material_faces_keep_theirs(owned):
+    owned.data.materials.append(owned.data.materials[0])
+    for polygon in owned.data.polygons:
+        polygon.material_index = polygon.index % 3
+    bpy.ops.reeb_parts.decompose(materials=True)
+    owned.data.reeb_parts.detail = 0.9
+    bpy.ops.reeb_parts.clear()
+    assert [polygon.material_index for polygon in owned.data.polygons] == [
+        polygon.index % 3 for polygon in owned.data.polygons]
 
 
 @pytest.mark.parametrize("after", ["detail", "decompose", "clear"])
