@@ -77,10 +77,10 @@ DIAGONAL = "REEB_PARTS_DIAGONAL"
 #: Blender, as a module or in full.
 SIXTHS = "REEB_PARTS_SIXTHS"
 BRIEF_SIXTHS = {"blender-4.2": "15", "blender-4.5": "3", "blender-5.2": "02", "inside": "4"}
-#: Of the unit tests, which: the methods of 2005 and 2007 are tried on models, and on any mesh by tests/fuzz; an older
-#: processor with one version of NumPy.
+#: Of the unit tests, which: the methods from papers are tried on models, by stored answers, and on any mesh by
+#: tests/fuzz; an older processor with one version of NumPy.
 BRIEF_WORDS = {"unit-oldest": "test_models or (test_everywhere and not older_processor)",
-               "unit-newest": "test_models or not (test_pipeline or test_scale) or not (2005 or 2007)",
+               "unit-newest": "test_models or not (test_pipeline or test_scale) or not (2005 or 2007 or 2009)",
                "inside": "not older_processor"}
 #: The suites that can run for long, and how many tests in each share that time.
 LONG = {"fuzz-core": 1, "fuzz-blender": 3}

@@ -124,6 +124,8 @@ def _best(
             made, error = cleaned, mirroring.error(cleaned)
         if error < least - 1e-9:
             best, least = made, error
+        if least <= 1e-9:  # no other can be better
+            break
     return best
 
 
