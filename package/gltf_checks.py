@@ -10,6 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from .core.errors import ReebError
+from .core.sentence import Sentence
+
 _DRACO, _MESHOPT = "KHR_draco_mesh_compression", ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _INSTANCING = "EXT_mesh_gpu_instancing"
 _FAN = 6  # a primitive's mode
@@ -37,8 +40,12 @@ def read_header(path: Path) -> dict[str, Any]:
 def unread(header: dict[str, Any]) -> str:
     """Name what the meshes of a file have that trimesh does not read; empty if there is nothing.
 
-    header : dict, of ``read_header``. Raises LookupError, TypeError or AttributeError if it is damaged.
+    header : dict, of ``read_header``. Raises ReebError for a file of version 1, which is another format; LookupError,
+    TypeError or AttributeError if it is damaged.
     """
+    # There meshes have names in place of numbers, and no file needs to say its version.
+    if isinstance(header.get("meshes"), dict) or str(header.get("asset", {}).get("version", "")).startswith("1."):
+        raise ReebError(Sentence("it is of version 1 of glTF, and only 2 is read"))
     used = {*header.get("extensionsUsed", ()), *header.get("extensionsRequired", ())}
     for extension in (*_MESHOPT, _INSTANCING):
         if extension in used:

@@ -163,7 +163,7 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     except Exception as error:  # noqa: BLE001 - whatever a reader of damaged files raises
         if lacks_memory(str(error)):
             raise MemoryError from error
-        raise _unreadable(path, f"{type(error).__name__}: {error}") from error
+        raise _unreadable(path, f"{type(error).__name__}: {str(error) or 'it is damaged'}") from error
 
 
 def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -89,3 +89,24 @@ def test_a_damaged_file_is_one_sentence(damage, header, tmp_path):
     (tmp_path / "model.gltf").write_text(json.dumps(header | damage), encoding="utf-8")
     with pytest.raises(reeb_parts.ModelFileError, match=r"model\.gltf could not be read: "):
         reeb_parts.read_model(tmp_path / "model.gltf")
+
+
+@pytest.mark.parametrize("header", [
+    {"asset": {"version": "1.0"}, "meshes": {}},
+    {"meshes": {"box": {"primitives": []}}},
+    {"asset": {"version": "1.1"}},
+])
+def test_a_file_of_the_former_version_is_said_to_be_one(header, tmp_path):
+    """Its meshes have names: 'str' object has no attribute 'get'."""
+    (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
+    with pytest.raises(reeb_parts.ModelFileError, match="could not be read: it is of version 1 of glTF"):
+        reeb_parts.read_model(tmp_path / "model.gltf")
+
+
+def test_what_a_reader_refuses_without_a_word_is_damaged(header, tmp_path):
+    """Triangles of two corners: the sentence ended with 'AssertionError:'."""
+    indices = header["accessors"][primitive(header)["indices"]]
+    indices["count"] = 2
+    (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
+    with pytest.raises(reeb_parts.ModelFileError, match=r"could not be read: \w+: .*[a-z]"):
+        reeb_parts.read_model(tmp_path / "model.gltf")
