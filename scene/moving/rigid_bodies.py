@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
@@ -15,6 +15,7 @@ from .. import transaction
 from ..ours import made_objects
 from ..pieces import origins
 from ..reading import mesh_arrays, placing
+from ..result import part_names
 from ..store import Stored
 
 if TYPE_CHECKING:
@@ -61,7 +62,6 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     from ...core.uses.moving.hulls import part_hulls
 
     collection = origins.make_collection(context, obj)
-    earlier = remove_joints(obj)
     numbered = stored.shown_parts()
     points = placing.transformed(mesh_arrays.shown_points(obj), placing.world_matrix(obj))
     table = mesh_arrays.joined_table(obj.data, points)
@@ -70,12 +70,14 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     bodies = [pieces.get(number, []) for number in numbered.numbers.tolist()]
     site = _Site(_world(context), collection, 0.05 * float(np.linalg.norm(np.ptp(points, axis=0))))
     _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
-    joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
-    apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    wanted = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
+    holding_nothing = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    earlier = remove_joints(obj, coming={_stands_for(joint) for joint in (*wanted, *holding_nothing)})
+    joints, apart = ([_joint(site, joint) for joint in some] for some in (wanted, holding_nothing))
     for joint in (*joints, *apart):
         origins.claim(joint, obj)
     made_objects.mark([*joints, *apart])
-    origins.hand_on(obj, earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
+    origins.hand_on(obj, earlier.gone, [(_stands_for(joint), joint) for joint in (*joints, *apart)])
     return RigidBodies([piece for some in bodies for piece in some], joints)
 
 
@@ -92,6 +94,20 @@ class _Site:
 _Bodies = list[list[bpy.types.Object]]
 
 
+class _Wanted(NamedTuple):
+    """A joint that is to be made: of which kind, between which pieces, and where; size : of its empty."""
+
+    kind: str
+    ends: tuple[bpy.types.Object, bpy.types.Object]
+    place: Matrix
+    size: float
+
+    @property
+    def name(self) -> str:
+        """What it is called, but for a number that Blender adds."""
+        return part_names.fitted(" - ".join(end.name for end in self.ends))
+
+
 def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray) -> None:
     """Make bodies of the pieces that are none. volume : (count,) float64, of the hull of each part."""
     masses = (volume / max(volume.mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
@@ -100,30 +116,30 @@ def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray) -> None:
             _add_body(site.physics, piece, mass / len(some))
 
 
-def _joints_at_cuts(site: _Site, bodies: _Bodies, found: BodyJoints, kind: str) -> list[bpy.types.Object]:
+def _joints_at_cuts(site: _Site, bodies: _Bodies, found: BodyJoints, kind: str) -> list[_Wanted]:
     """A joint for each cut between parts that both have pieces."""
     joints = []
     for (a, b), center, axis, hinge in zip(found.pairs.tolist(), found.center, found.axis, found.hinge, strict=True):
         if bodies[a] and bodies[b]:
             ends = _nearest(bodies[a], center), _nearest(bodies[b], center)
-            joints.append(_joint(site, kind, ends, _place(center, axis, hinge), site.size))
+            joints.append(_Wanted(kind, ends, _place(center, axis, hinge), site.size))
     return joints
 
 
-def _joints_within_parts(site: _Site, bodies: _Bodies) -> list[bpy.types.Object]:
+def _joints_within_parts(site: _Site, bodies: _Bodies) -> list[_Wanted]:
     """What was cut to fit the bed is held by the first piece of its part."""
-    return [_joint(site, "FIXED", (some[0], piece), piece.matrix_world.normalized(), site.size)
+    return [_Wanted("FIXED", (some[0], piece), piece.matrix_world.normalized(), site.size)
             for some in bodies for piece in some[1:]]
 
 
 def _joints_that_hold_nothing(site: _Site, bodies: _Bodies, overlaps: np.ndarray,
-                              pairs: np.ndarray) -> list[bpy.types.Object]:
+                              pairs: np.ndarray) -> list[_Wanted]:
     """Joints by which bodies that overlap at the start do not push each other away.
 
     overlaps, pairs : (k, 2) and (j, 2) int64, parts whose hulls overlap, and those that have joints.
     """
     held = {tuple(pair) for pair in pairs.tolist()}
-    return [_joint(site, "GENERIC", (one, other), one.matrix_world.normalized(), 0.2 * site.size)
+    return [_Wanted("GENERIC", (one, other), one.matrix_world.normalized(), 0.2 * site.size)
             for a, b in overlaps.tolist() if (a, b) not in held for one in bodies[a] for other in bodies[b]]
 
 
@@ -174,16 +190,15 @@ def _place(center: np.ndarray, axis: np.ndarray, hinge: np.ndarray) -> Matrix:
     return place
 
 
-def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Object], place: Matrix,
-           size: float) -> bpy.types.Object:
+def _joint(site: _Site, wanted: _Wanted) -> bpy.types.Object:
     """An empty with a constraint between two bodies; one that is GENERIC holds nothing."""
-    joint = bpy.data.objects.new(f"{ends[0].name} - {ends[1].name}", None)
-    joint.matrix_world = place
-    joint.empty_display_type, joint.empty_display_size = "ARROWS", size
+    joint = bpy.data.objects.new(wanted.name, None)
+    joint.matrix_world = wanted.place
+    joint.empty_display_type, joint.empty_display_size = "ARROWS", wanted.size
     site.collection.objects.link(joint)
     site.physics.constraints.objects.link(joint)  # which makes it a constraint
     holds = joint.rigid_body_constraint
-    holds.type, holds.object1, holds.object2 = kind, *ends
+    holds.type, holds.object1, holds.object2 = wanted.kind, *wanted.ends
     holds.disable_collisions = True
     holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
     joint[made_objects.ROLE] = "joint"
@@ -191,16 +206,22 @@ def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Objec
 
 
 def remove_joints(obj: bpy.types.Object,
-                  of: Iterable[bpy.types.Object] | None = None) -> made_objects.Earlier:
-    """Remove joints of an object that the user has not worked on; they stand for what their names say.
+                  of: Iterable[bpy.types.Object] | None = None,
+                  coming: Collection[str] = ()) -> made_objects.Earlier:
+    """Remove joints of an object that the user has not worked on nor needs; they stand for what their names say.
 
-    of : only those of these pieces.
+    of : only those of these pieces. coming : what joints will be made now, see made_objects.needed.
     """
     joints = origins.made_of(obj, made_objects.ROLE)
     if of is not None:
         ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
         joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]
-    return made_objects.remove_untouched(joints, "joint", _former_looks, lambda joint: joint.name, None)
+    return made_objects.remove_untouched(joints, "joint", _former_looks, _stands_for, coming)
+
+
+def _stands_for(joint: bpy.types.Object | _Wanted) -> str:
+    """The two pieces, of which several joints may hold each other; see made_objects.StandsFor."""
+    return part_names.without_number(joint.name)
 
 
 def _former_looks(joint: bpy.types.Object) -> str:

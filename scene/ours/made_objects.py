@@ -84,7 +84,7 @@ def hand_over(item: bpy.types.ID, *keys: str) -> None:
 
 
 def remove_untouched(objects: Iterable[bpy.types.Object], role: str, former: Former, stands_for: StandsFor,
-                     coming: Collection[str] | None) -> Earlier:
+                     coming: Collection[str]) -> Earlier:
     """Remove what we made with a role; what the user has worked on, or needs, stays, and is the user's.
 
     Parameters
@@ -93,8 +93,8 @@ def remove_untouched(objects: Iterable[bpy.types.Object], role: str, former: For
     role : str
     former : Former
     stands_for : StandsFor
-    coming : collection of str, optional
-        What those stand for that will be made now, see ``needed``; without it, nothing stays for being needed.
+    coming : collection of str
+        What those stand for that will be made now, see ``needed``.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def remove_untouched(objects: Iterable[bpy.types.Object], role: str, former: For
         For ``hand_on``.
     """
     there = [item for item in objects if item.get(ROLE) == role]
-    needs = needed(there, stands_for, coming) if coming is not None else set()
+    needs = needed(there, stands_for, coming)
     around = Surroundings.now()
     gone = [(stands_for(item), item) for item in there if item not in needs and is_untouched(item, former, around)]
     going = {item for _, item in gone}

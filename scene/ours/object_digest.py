@@ -2,10 +2,10 @@
 """What an object has, as a short text that differs once somebody has worked on it.
 
 The text covers the settings of the object and of its modifiers, constraints and whatever else it has, the mesh or the
-bones with all that they carry, their name, whether they are an asset, and custom properties. A setting counts only
-where it differs from its default, so that a later Blender with more settings gives the same text. Left out are what
-changes only the view - whether something is selected, hidden in the viewport or unfolded in a panel -, what an
-animation or a driver sets, and our own marks.
+bones with all that they carry, their name, whether they are an asset, custom properties, and what other extensions keep
+there. A setting counts only where it differs from its default, so that a later Blender with more settings gives the
+same text. Left out are what changes only the view - whether something is selected, hidden in the viewport or unfolded
+in a panel -, what an animation or a driver sets, and our own marks.
 """
 
 from __future__ import annotations
@@ -29,12 +29,14 @@ _PASSING = {
     "matrix_world", "matrix_local", "matrix_basis", "matrix", "active", "is_active", "active_material",
     "active_material_index", "active_shape_key_index", "show_expanded", "show_group_selector", "show_manage_panel",
     "open_warnings_panel", "motion_path", "point_cache", "bone", "child", "object1", "object2",
-    "bake_target", "fuzzy",
+    "bake_target", "fuzzy", "ShapeKey.points",
 }  # fmt: skip
-# Of an object, what has settings of its own; to ask for others, such as its force field, would make them.
+# Of an object, what has settings of its own, of which there are several, and of which there is one.
 _PARTS = "modifiers", "constraints", "vertex_groups", "material_slots"
+_SINGLE = "display", "light_linking", "lineart", "field"
 _ITEMS = {"targets", "curves", "points"}  # what there are several of, deeper inside
-_NAMED = bpy.types.ID, bpy.types.Bone, bpy.types.PoseBone, bpy.types.BoneCollection  # told by name where pointed at
+# Told by name where pointed at.
+_NAMED = bpy.types.ID, bpy.types.Bone, bpy.types.PoseBone, bpy.types.BoneCollection, bpy.types.ShapeKey
 _DEEPEST = 5
 
 # Settings whose default is another in some Blenders from 4.2 to 5.3, or wrong there, or that some lack, with what they
@@ -69,7 +71,7 @@ _FROM_THE_START |= dict.fromkeys(_NOTHING, 0) | {
     "project_axis": "POS_X", "project_axis_space": "WORLD", "y_scale_mode": "NONE", "keep_axis": "PLANE_X",
     "map_to_y_from": "X", "map_to_z_from": "X", "Object.track_axis": "POS_X", "TrackToConstraint.track_axis": "TRACK_X",
     "DampedTrackConstraint.track_axis": "TRACK_X", "LockedTrackConstraint.track_axis": "TRACK_X",
-    "FollowPathConstraint.forward_axis": "FORWARD_X",
+    "FollowPathConstraint.forward_axis": "FORWARD_X", "ObjectLineArt.crease_threshold": 2.4434609413146973,
 }  # fmt: skip
 
 
@@ -90,7 +92,49 @@ def digest(item: bpy.types.Object, n_collections: int) -> str:
         told += _bones(item, moving)
     if item.data is not None:
         told += [item.data.name, item.data.asset_data is not None, *_custom(item.data)]
+    told += _beside(item)
     return _DIGEST + hashlib.blake2b(repr(told).encode(errors="replace"), digest_size=16).hexdigest()
+
+
+def _beside(item: bpy.types.Object) -> list[Any]:
+    """What few objects have; nothing for all others, whose texts are those of before it counted."""
+    found: list[Any] = []
+    for name in _SINGLE:
+        single = getattr(item, name)
+        # Not every object has a force field, and one of a collision is of no kind.
+        if single is not None and getattr(single, "type", "") != "NONE" and (told := _told(single, "", set())):
+            found.append((name, told))
+    holds = item.rigid_body_constraint
+    if holds is not None:
+        # What was made from parts may be made anew, under another name.
+        ends = [end for end in (holds.object1, holds.object2) if end is not None]
+        found += [end.name for end in ends if not any(key.startswith(_OURS) for key in end.keys())]
+    found += _of_extensions(item)
+    if item.data is not None:
+        found += [*_of_extensions(item.data), *_animation(item.data.animation_data)]
+    if item.type == "MESH" and item.data.shape_keys:
+        found += _keys(item.data.shape_keys)
+    return found
+
+
+def _keys(keys: bpy.types.Key) -> list[Any]:
+    """The shape keys of a mesh, but for their points, which are told with what the vertices carry."""
+    moving = set(_moving_paths(keys.animation_data))
+    whole = [(name, getattr(keys, name)) for name in ("use_relative", "eval_time") if name not in moving]
+    return [whole, *_told_each(keys.key_blocks, "key_blocks", moving), *_animation(keys.animation_data), *_custom(keys)]
+
+
+def _of_extensions(block: bpy.types.ID) -> list[tuple[str, Any]]:
+    """What other extensions keep with a data block in groups of properties; one is not set until it is used."""
+    found = []
+    for prop in block.bl_rna.properties:
+        name = prop.identifier
+        if prop.is_runtime and prop.is_readonly and not name.startswith(_OURS) and block.is_property_set(name):
+            value = getattr(block, name)
+            told: list = [_told(item, "", set()) for item in value] if prop.type == "COLLECTION" else \
+                _told(value, "", set())
+            found += [(name, told)] if told else []
+    return found
 
 
 def is_digest(text: object) -> bool:
@@ -103,7 +147,7 @@ def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int 
     found, kind = [], struct.bl_rna.identifier
     for prop in struct.bl_rna.properties:
         name = prop.identifier
-        if name in _PASSING or path + name in moving:
+        if name in _PASSING or f"{kind}.{name}" in _PASSING or path + name in moving:
             continue
         if prop.type in ("POINTER", "COLLECTION"):
             told = _told_inside(struct, prop, path, moving, depth)
@@ -130,7 +174,7 @@ def _told_inside(struct: bpy.types.bpy_struct, prop: bpy.types.Property, path: s
     if prop.type == "COLLECTION":
         if name == "collections":  # of a bone
             return sorted(item.name for item in getattr(struct, name))
-        if is_block or name not in _ITEMS:
+        if is_block or not (name in _ITEMS or isinstance(struct, bpy.types.PropertyGroup)):
             return None
         return [_told(item, f"{path}{name}[{index}].", moving, depth + 1)
                 for index, item in enumerate(getattr(struct, name))]

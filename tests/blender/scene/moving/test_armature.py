@@ -286,6 +286,7 @@ USE = {
     "property of a posed bone": lambda rig: rig.pose.bones[0].__setitem__("mine", 1),
     "pose": lambda rig: setattr(rig.pose.bones[0], "location", (0, 0, 1)),
     "lock": lambda rig: setattr(rig.pose.bones[0], "lock_rotation", (True, True, True)),
+    "driver of a bone at rest": lambda rig: rig.data.bones[0].driver_add("bbone_curveinx"),
 }
 
 

@@ -113,6 +113,18 @@ def test_twice_is_once_and_a_used_joint_is_kept(obj):
     assert [joint.rigid_body_constraint.type for joint in joints_of()] == ["POINT"] * count
 
 
+def test_a_joint_that_was_given_a_body_of_the_users_is_kept(obj):
+    """It was made anew between the pieces alone."""
+    separated(obj)
+    bpy.ops.reeb_parts.rigid_bodies()
+    mine, holds = joints_of()[0], joints_of()[0].rigid_body_constraint
+    holds.object2 = floor(-9)
+    bpy.ops.reeb_parts.rigid_bodies()
+    assert mine in bpy.data.objects[:]
+    assert mine not in joints_of()
+    assert mine.rigid_body_constraint.object2.name == "Floor"
+
+
 def test_separate_again_takes_the_joints_of_earlier_pieces_away(obj):
     separated(obj)
     bpy.ops.reeb_parts.rigid_bodies()

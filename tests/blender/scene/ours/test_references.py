@@ -220,6 +220,42 @@ def test_joints_of_bodies_are_handed_on(obj):
     assert [item.name for item in held()] == [name]
 
 
+@pytest.mark.parametrize("way", ["separate", "bodies"])
+def test_a_joint_that_others_need_stays_where_nothing_takes_its_place(obj, way):
+    """Its pieces were made anew, or one was deleted: a camera that looked at it looked at nothing."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    bpy.ops.reeb_parts.rigid_bodies()
+    joint = with_role("joint")[0]
+    refer(joint)
+    if way == "separate":
+        again(obj, "separate")
+    else:
+        activate(joint.rigid_body_constraint.object1)
+        bpy.ops.object.delete()
+        activate(obj)
+        bpy.ops.reeb_parts.rigid_bodies()
+    assert held() == {joint}
+    assert "reeb_parts_role" not in joint
+
+
+def test_of_joints_of_one_name_each_is_handed_on(obj):
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    bpy.context.view_layer.update()
+    obj.dimensions = (0.1, 0.1, 0.4)
+    bpy.ops.reeb_parts.separate(fit_bed=True, bed=(150.0, 150.0, 150.0), **KEEP)
+    for number, piece in enumerate(made(obj)):
+        piece["reeb_parts_number"], piece.name = made(obj)[0]["reeb_parts_number"], f"Piece.{number:03d}"
+    bpy.ops.reeb_parts.rigid_bodies()
+    joints = with_role("joint")
+    assert len(joints) > 1
+    refer(joints[-1])
+    n_made, name = len(joints), joints[-1].name
+    bpy.ops.reeb_parts.rigid_bodies()
+    assert [item.name for item in held()] == [name]
+    assert len(with_role("joint")) == n_made
+
+
 def test_a_body_that_others_need_is_replaced_by_a_piece_that_is_none(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)

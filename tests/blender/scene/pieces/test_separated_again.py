@@ -59,7 +59,36 @@ WORK = {
     "asset": lambda piece: piece.asset_mark(),
     "asset of the mesh": lambda piece: piece.data.asset_mark(),
     "name of the mesh": lambda piece: setattr(piece.data, "name", "Mine"),
+    "force field": lambda piece: (activate(piece), bpy.ops.object.forcefield_toggle()),
+    "shadow in the view": lambda piece: setattr(piece.display, "show_shadows", False),
+    "line art": lambda piece: setattr(piece.lineart, "usage", "EXCLUDE"),
+    "light linking": lambda piece: setattr(piece.light_linking, "receiver_collection", bpy.data.collections.new("Lit")),
+    "another extension": lambda piece: setattr(piece.other_extension.deeper.add(), "kind", "Collider"),
+    "another extension, of the mesh": lambda piece: setattr(piece.data.other_extension, "kind", "Collider"),
 }
+
+
+class Deeper(bpy.types.PropertyGroup):
+    kind: bpy.props.StringProperty()
+
+
+class Other(bpy.types.PropertyGroup):
+    kind: bpy.props.StringProperty()
+    deeper: bpy.props.CollectionProperty(type=Deeper)
+
+
+@pytest.fixture
+def other_extension():
+    """An extension that keeps groups of properties with objects and meshes."""
+    for kind in (Deeper, Other):
+        bpy.utils.register_class(kind)
+    for owner in (bpy.types.Object, bpy.types.Mesh):
+        owner.other_extension = bpy.props.PointerProperty(type=Other)
+    yield
+    for owner in (bpy.types.Object, bpy.types.Mesh):
+        del owner.other_extension
+    for kind in (Other, Deeper):
+        bpy.utils.unregister_class(kind)
 
 
 def made_body(obj):
@@ -88,7 +117,8 @@ def set_input(modifier, value):
 
 
 @pytest.mark.parametrize("work", WORK)
-def test_pieces_that_somebody_worked_on_are_kept(obj, work):
+def test_pieces_that_somebody_worked_on_are_kept(obj, work, other_extension):
+    obj.other_extension.kind = "Of the whole"
     obj.vertex_groups.new(name="Bend").add(range(len(obj.data.vertices)), 0.5, "REPLACE")
     obj.modifiers.new("Wave", "WAVE")
     with_input(obj)
@@ -102,6 +132,39 @@ def test_pieces_that_somebody_worked_on_are_kept(obj, work):
     assert mine in bpy.data.objects[:]
     assert mine not in pieces_of()
     assert len(pieces_of()) == count
+
+
+KEY_WORK = {
+    "value": lambda keys: setattr(keys.key_blocks["Fat"], "value", 0.7),
+    "name": lambda keys: setattr(keys.key_blocks["Fat"], "name", "Smile"),
+    "range": lambda keys: setattr(keys.key_blocks["Fat"], "slider_max", 3.0),
+    "mute": lambda keys: setattr(keys.key_blocks["Fat"], "mute", True),
+    "of another": lambda keys: setattr(keys.key_blocks["Fat"], "relative_key", keys.key_blocks["Long"]),
+    "keyframes": lambda keys: keys.key_blocks["Fat"].keyframe_insert("value", frame=1),
+    "driver": lambda keys: keys.key_blocks["Fat"].driver_add("value"),
+    "custom property": lambda keys: keys.__setitem__("mine", 1),
+    "no change": lambda keys: None,
+}
+
+
+@pytest.mark.parametrize("work", KEY_WORK)
+def test_shape_keys_that_somebody_worked_on_are_kept(obj, work):
+    """A face that was keyed and animated on a piece went with it; what moves by itself is no work."""
+    for name in ("Basis", "Fat", "Long", "Moving"):
+        obj.shape_key_add(name=name).data[0].co.x += len(name) / 99
+    keys = obj.data.shape_keys.key_blocks
+    keys["Fat"].value = 0.2
+    for frame, value in ((1, 0.0), (9, 1.0)):
+        keys["Moving"].value = value
+        keys["Moving"].keyframe_insert("value", frame=frame)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    mine = pieces_of()[0]
+    KEY_WORK[work](mine.data.shape_keys)
+    bpy.context.scene.frame_set(5)
+    activate(obj)
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert (mine in bpy.data.objects[:]) == (work != "no change")
 
 
 def test_pieces_that_somebody_only_looked_at_are_replaced(obj):
