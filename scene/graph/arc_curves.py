@@ -10,13 +10,18 @@ import numpy as np
 
 from ...core.graph.reeb import ReebGraph
 
+NAME = "Reeb arcs"
 
-def curve(graph: ReebGraph, back: np.ndarray, stretches: np.ndarray) -> bpy.types.Curve:
-    """A poly spline for each stretch of an arc.
+
+def curve(graph: ReebGraph, back: np.ndarray, stretches: np.ndarray,
+          like: bpy.types.Curve | None = None) -> bpy.types.Curve:
+    """A new curve with a poly spline for each stretch of an arc.
 
     back : (3, 3) float64, takes the graph's positions to the mesh's. stretches : (s, 3) int64, see ``seen_stretches``.
+    like : one from which all else is, such as materials and how round it is.
     """
-    made = bpy.data.curves.new("Reeb arcs", "CURVE")
+    made = bpy.data.curves.new(NAME, "CURVE") if like is None else like.copy()
+    made.splines.clear()
     made.dimensions = "3D"
     scale = float(np.cbrt(abs(np.linalg.det(back)))) or 1.0
     drawn = lines(graph, places(graph, back), stretches)

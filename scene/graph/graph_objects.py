@@ -23,7 +23,7 @@ from ...core.uses.graph_folding import unfolded
 from .. import bridge, store, transaction
 from ..ours import made_objects
 from ..ours.made_objects import ROLE
-from ..reading import mesh_arrays
+from ..reading import mesh_arrays, placing
 from ..result import part_names
 from ..showing import visibility
 from ..showing.selection import in_layer
@@ -32,9 +32,11 @@ from . import arc_curves
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
+_GRAPH_OF = "Reeb Graph "  # how its name begins
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
 _ARCS = "arcs"  # the role of the curve
+_TYPES = {"node": "EMPTY", _ARCS: "CURVE"}  # of the objects that have the roles
 _STRETCHES = "stretches"  # on the curve: what its splines are, see ``arc_curves.seen_stretches``
 FOLDED = "folded"  # on a node: the parts that are shown do not need it
 _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and when it is
@@ -65,8 +67,25 @@ def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
 def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
     """The objects of an object's graph that have a role, "node" or "arcs"; none if there is no graph."""
     collection = find(obj)
-    every = [*(collection.objects if collection else ()), *_elsewhere(obj)]
-    return (item for item in every if item.get(ROLE) == role)
+    every = [*(_inside(collection) if collection else ()), *_elsewhere(obj)]
+    return (item for item in _originals(every) if item[ROLE] == role)
+
+
+def _inside(collection: bpy.types.Collection) -> list[bpy.types.Object]:
+    """The objects of a graph that lie in its collection, not those of a copy of the model that was made with them."""
+    source = collection[SOURCE]
+    return [item for item in collection.objects if ROLE in item and not transaction.is_discarded(item)
+            and (item.parent == source or not store.has_parts(item.parent))]
+
+
+def _originals(items: Iterable[bpy.types.Object]) -> Iterator[bpy.types.Object]:
+    """Those of some objects of a graph that we made; what the user has copied or converted since is the user's."""
+    known = set()
+    for item in items:
+        kind = item[ROLE], item.get("node")
+        if item.type == _TYPES.get(item[ROLE]) and kind not in known:
+            known.add(kind)
+            yield item
 
 
 def _elsewhere(obj: bpy.types.Object) -> list[bpy.types.Object]:
@@ -137,12 +156,13 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
     kinds = [KINDS[kind] for kind in graph.node_kind.tolist()]
     coming = [*map(_name_of_node, numbers, kinds), _ARCS]
-    earlier = _remove(obj, coming)
     back = bridge.unstretch(store.stretch_of(obj.data)).T
-    collection = bpy.data.collections.new(f"Reeb Graph {obj.name}")
-    collection[SOURCE] = obj
-    collection.hide_render = True
-    context.scene.collection.children.link(collection)
+    before = arcs(obj)
+    name = before.data.name if before is not None else arc_curves.NAME
+    curve = arc_curves.curve(graph, back, arc_curves.whole(graph, range(graph.n_arcs)), before and before.data)
+    earlier = _remove(obj, coming)
+    curve.name = name
+    collection = _make_collection(context, obj)
     nodes = graph.node_position @ back
     for index, position in enumerate(nodes.tolist()):
         kind = kinds[index]
@@ -152,12 +172,25 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
         empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), numbers[index]
         empty["node"], empty[FOLDED] = index, False
         _place(empty, "node", obj, collection)
-    curve = arc_curves.curve(graph, back, arc_curves.whole(graph, range(graph.n_arcs)))
-    _place(bpy.data.objects.new("Reeb arcs", curve), _ARCS, obj, collection)
+    _place(bpy.data.objects.new(arc_curves.NAME, curve), _ARCS, obj, collection)
     restyle(obj, style)
-    made_objects.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
+    made_objects.hand_on(earlier.gone, [(_stands_for(item), item) for item in _inside(collection)])
     update_parts(obj, numbered)
     return earlier.kept
+
+
+def _make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
+    """The collection for a new graph of an object: that of the one before, where the user has it, or a new one."""
+    collection, name = find(obj), _GRAPH_OF + obj.name
+    if collection is None:
+        collection = bpy.data.collections.new(name)
+        collection[SOURCE] = obj
+        collection.hide_render = True
+    elif collection.name.startswith(_GRAPH_OF) and part_names.without_number(collection.name) != name:
+        transaction.keep(collection, "name")
+        collection.name = name  # the object was renamed
+    visibility.include(context, collection)
+    return collection
 
 
 def _name_of_node(number: int, kind: str) -> str:
@@ -311,9 +344,8 @@ def _draw_curve(item: bpy.types.Object, graph: ReebGraph, back: np.ndarray, stre
     """Draw the curve of a graph anew. back, stretches : as of ``arc_curves.curve``."""
     transaction.keep(item, "data")
     before = item.data
-    name, thickness = before.name, before.bevel_depth
-    curve = arc_curves.curve(graph, back, stretches)
-    curve.bevel_depth = thickness
+    name = before.name
+    curve = arc_curves.curve(graph, back, stretches, before)
     item.data = curve
     if before.users == 0:
         transaction.discard(before)
@@ -358,7 +390,7 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
         return
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
-    for item in collection.objects:
+    for item in _originals(_inside(collection)):
         transaction.keep(item, "empty_display_size", "show_in_front")
         if item.get(ROLE) == "node":
             if is_folded(item):
@@ -383,31 +415,55 @@ def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made_objec
 
     coming : what the nodes of a new graph stand for, see made_objects.needed; None without one.
     """
-    gone, kept = _remove_items(_elsewhere(obj), coming)
-    for collection in list(bpy.data.collections):
-        if SOURCE not in collection or collection[SOURCE] not in (obj, None):
+    own = find(obj)
+    earlier = _remove_items([*(_inside(own) if own else ()), *_elsewhere(obj)], coming)
+    for collection in [each for each in bpy.data.collections if SOURCE in each and each[SOURCE] in (obj, None)]:
+        if collection == own and coming is not None:  # the new graph lies there
+            made_objects.hand_over(collection, SHOWN_BEFORE)
             continue
-        ours = [item for item in collection.objects if ROLE in item]
-        theirs = set(collection.all_objects) - set(ours)
-        more = _remove_items(ours, coming if collection[SOURCE] else None)
-        gone, kept = gone + more.gone, kept + more.kept
+        if collection != own:
+            _remove_items(_inside(collection), None)
         made_objects.hand_over(collection, SOURCE, SHOWN_BEFORE)
         # Else it is the user's now, who put something in it.
-        if not theirs and not more.kept and not len(collection.children):
+        if all(map(transaction.is_discarded, collection.all_objects)) and not len(collection.children):
             transaction.discard(collection)
-    return made_objects.Earlier(gone, kept)
+    return earlier
 
 
 def _remove_items(items: list[bpy.types.Object], coming: Collection[str] | None) -> made_objects.Earlier:
-    """Remove objects of a graph; those that others need are the user's from now on. coming : as of ``_remove``."""
-    needed = made_objects.needed(items, _stands_for, coming) if coming is not None else set()
-    going = [item for item in items if item not in needed]
-    for item in needed:
+    """Remove objects of a graph; those that others need, or that are copies, are the user's from now on.
+
+    coming : as of ``_remove``.
+    """
+    ours = list(_originals(items))
+    needed = made_objects.needed(ours, _stands_for, coming) if coming is not None else set()
+    going = [item for item in ours if item not in needed]
+    for item in set(items) - set(going):
         made_objects.hand_over(item, ROLE)
     gone = [(_stands_for(item), item) for item in going]
+    if coming is None:
+        _leave_children(going)
     for item in going:
         remove_object(item)
-    return made_objects.Earlier(gone, len(needed))
+    return made_objects.Earlier(gone, len(items) - len(going))
+
+
+def _leave_children(going: list[bpy.types.Object]) -> None:
+    """Have what the user has made children of objects that go be children of these objects' parents, where it is."""
+    for child in bpy.data.objects:
+        former = child.parent
+        if former not in going or child in going or child.parent_type != "OBJECT" or not child.is_editable:
+            continue
+        parent = former.parent if former.parent is not None and former.parent.users_scene else None
+        place = placing.world_matrix(former) @ child.matrix_parent_inverse
+        transaction.on_failure(setattr, child, "matrix_parent_inverse", child.matrix_parent_inverse.copy())
+        transaction.keep(child, "parent")
+        child.parent = parent
+        if parent is not None:
+            child.matrix_parent_inverse = placing.world_matrix(parent).inverted_safe() @ place
+        else:
+            transaction.on_failure(setattr, child, "matrix_basis", child.matrix_basis.copy())
+            child.matrix_basis = place @ child.matrix_basis
 
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
