@@ -131,6 +131,13 @@ def check_object(obj: bpy.types.Object | None) -> None:
         )
 
 
+def check_at_rest(obj: bpy.types.Object) -> None:
+    """As ``check_object``, and raise SceneError where the mesh is being edited, beside an active object that is not."""
+    check_object(obj)
+    if obj.data.is_editmode:
+        raise SceneError(_in_another_mode(obj))
+
+
 def is_foreign(obj: bpy.types.Object) -> bool:
     """Whether an object is linked from another file, be it overridden."""
     return obj.library is not None or obj.override_library is not None

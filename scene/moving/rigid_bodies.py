@@ -176,7 +176,9 @@ def _nearest(pieces: list[bpy.types.Object], place: np.ndarray) -> bpy.types.Obj
         return pieces[0]
 
     def distance(piece: bpy.types.Object) -> float:
-        points = placing.transformed(mesh_arrays.basis_points(piece.data), placing.world_matrix(piece))
+        # In Edit Mode a mesh gives no points.
+        own = np.array(piece.bound_box) if piece.data.is_editmode else mesh_arrays.basis_points(piece.data)
+        points = placing.transformed(own, placing.world_matrix(piece))
         return float(np.linalg.norm(points - place, axis=1).min())
 
     return min(pieces, key=distance)

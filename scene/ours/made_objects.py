@@ -57,7 +57,9 @@ def marking(items: Collection[bpy.types.Object]) -> Steps[None]:
 
 
 def is_as_made(item: bpy.types.Object, former: Former, around: Surroundings) -> bool:
-    """Whether an object is still what it was when we made it; not in Edit Mode."""
+    """Whether an object is still what it was when we made it; what is being edited, be it through another, is not."""
+    if getattr(item.data, "is_editmode", False):
+        return False
     known = item.get(MADE)
     return (_digest(item, around) if object_digest.is_digest(known) else former(item)) == known
 

@@ -121,6 +121,8 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
                 kind: str) -> rigid_bodies.RigidBodies:
     """Make rigid bodies of an object's pieces, with joints of a kind, see rigid_bodies.make; Object Mode.
 
+    A piece that the user has made something else than a mesh of is left out.
+
     Raises
     ------
     SceneError
@@ -130,7 +132,8 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     context.view_layer.update()  # pieces made just now do not know where they are
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
-        pieces.setdefault(piece[NUMBER], []).append(piece)
+        if piece.type == "MESH":
+            pieces.setdefault(piece[NUMBER], []).append(piece)
     around = Surroundings.now()
     untouched = [piece for some in pieces.values() for piece in some
                  if made_objects.is_as_made(piece, former_looks, around)]

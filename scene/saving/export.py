@@ -15,7 +15,7 @@ from mathutils import Color
 
 from ...core.file_names import file_name
 from ...core.uses.threemf import Assembly, ColoredMesh, write_3mf
-from .. import bridge, store
+from .. import bridge, store, targets
 from ..errors import SceneError
 from ..pieces import origins, piece_objects
 from ..pieces.part_meshes import piece_meshes
@@ -141,16 +141,23 @@ def _removed(pieces: dict[str, bpy.types.Object]) -> Iterator[None]:
 
 
 def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str, bpy.types.Object]:
-    """Copies of an object's pieces, and of their dowels, by their names, with meshes in its coordinates."""
+    """Copies of an object's pieces, and of their dowels, by their names, with meshes in its coordinates.
+
+    Of what is being edited, as it is by now. Raises SceneError where one is no mesh any more.
+    """
     bpy.context.view_layer.update()  # pieces made just now do not know where they are
     numbers = None if wanted is None else set(wanted)
     pieces, dowels = ([item for item in items if numbers is None or piece_objects.is_of(item, numbers)]
                       for items in (piece_objects.piece_objects(obj), piece_objects.dowels(obj)))
     if not pieces:
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=obj.name))
+    for piece in (*pieces, *dowels):
+        if piece.type != "MESH":
+            targets.check_object(piece)  # which says what to do
     to_object = placing.world_matrix(obj).inverted_safe()
     copies = {}
     for piece in (*pieces, *dowels):
+        piece.update_from_editmode()
         mesh = piece.data.copy()
         mesh.transform(to_object @ placing.world_matrix(piece), shape_keys=True)
         copies[piece.name] = _stand_in(piece.name, mesh, piece)
