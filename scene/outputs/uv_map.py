@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
 WRITTEN = "reeb_parts_uv_digest"  # and what we wrote there, see _digest
+FORMER = "reeb_parts_uv_former"  # and the map that was active before
 
 # How many UV maps Blender allows.
 _LAYERS = 8
@@ -44,12 +45,19 @@ def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
 
 
 def remove(mesh: bpy.types.Mesh) -> str:
-    """Remove our UV map; Object Mode. Returns the name of one that was changed since and stays, or ""."""
+    """Remove our UV map; the one that was active before is so again, unless the user has chosen another; Object Mode.
+
+    Returns the name of one that was changed since and stays, or "".
+    """
     transaction.keep_mesh(mesh)
     layer, name = find(mesh), mesh.get(MADE, "")
     if layer is not None:
+        active = mesh.uv_layers.active.name
         mesh.uv_layers.remove(layer)
-    made_objects.hand_over(mesh, MADE, WRITTEN)
+        active = mesh.uv_layers.get(mesh.get(FORMER, "") if active == name else active)
+        if active is not None:
+            mesh.uv_layers.active = active
+    made_objects.hand_over(mesh, MADE, WRITTEN, FORMER)
     return name if name in mesh.uv_layers else ""
 
 
@@ -156,9 +164,11 @@ def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Dist
 def _write(mesh: bpy.types.Mesh, flat: np.ndarray) -> str:
     """Write our map, which becomes the active one, and return its name. flat : (c, 2)."""
     transaction.keep_mesh(mesh)
-    transaction.keep_keys(mesh, MADE, WRITTEN)
+    transaction.keep_keys(mesh, MADE, WRITTEN, FORMER)
     layer = find(mesh)
     if layer is None:
+        if mesh.uv_layers.active is not None:
+            mesh[FORMER] = mesh.uv_layers.active.name
         layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
         mesh[MADE] = layer.name
         mesh.uv_layers.active = layer

@@ -204,6 +204,7 @@ def test_nothing_else_is_touched(obj):
     mesh["order"].remove(MAP)
     assert mesh["properties"].pop("reeb_parts_uv") == MAP
     assert mesh["properties"].pop("reeb_parts_uv_digest")
+    assert mesh["properties"].pop("reeb_parts_uv_former") == "Mine"
     assert mesh.pop("active UV map") == MAP
     assert before["meshes"]["Tree"].pop("active UV map") == "Mine"
     assert changes(before, after) == []
@@ -238,6 +239,27 @@ def test_clear_leaves_a_map_that_was_changed_by_hand(obj, capfd):
     assert obj.data.uv_layers.keys() == [MAP]
     assert (read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2) == by_hand).all()
     assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]  # noqa: SIM118
+
+
+@pytest.mark.parametrize("chosen", ["", "First", "Third"])
+def test_clear_leaves_active_what_was(obj, chosen):
+    """The last map was, whichever had been; the user's own choice since then stays."""
+    for name in ("First", "Second", "Third"):
+        obj.data.uv_layers.new(name=name)
+    obj.data.uv_layers.active = obj.data.uv_layers["Second"]
+    obj.data.uv_layers["First"].active_render = True
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    bpy.ops.reeb_parts.unwrap()
+    bpy.ops.reeb_parts.unwrap()
+    if chosen:
+        obj.data.uv_layers.active = obj.data.uv_layers[chosen]
+    bpy.ops.reeb_parts.clear()
+    assert obj.data.uv_layers.active.name == (chosen or "Second")
+    assert [layer.name for layer in obj.data.uv_layers if layer.active_render] == ["First"]
+    bpy.ops.reeb_parts.decompose()
+    if not chosen:
+        assert changes(before, snapshot()) == []
 
 
 def test_clear_leaves_a_map_that_was_renamed(obj):
