@@ -21,8 +21,9 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.clear"
     bl_label = "Clear Parts"
     bl_description = n_("Remove everything that Reeb Parts has added to the selected meshes; what was there before is "
-                        "back. A UV map that you have changed or renamed stays, and so do the objects made of parts: "
-                        "separated pieces, as your own that do not lead back to the mesh, hulls and armatures")
+                        "back. A UV map that you have changed or renamed stays, and so do weights of the armature that "
+                        "you have changed, and the objects made of parts: separated pieces, as your own that do not "
+                        "lead back to the mesh, hulls and armatures")
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
@@ -35,8 +36,11 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
         objects = targets.chosen_objects(context, self.report)
         with object_mode(context):
             for obj in objects:
-                staying = results.clear(obj)
-                if staying:
+                left = results.clear(obj)
+                if left.uv_map:
                     self.report({"INFO"}, rpt_("{name}: the UV map {map} was changed by hand and stays").format(
-                        name=obj.name, map=staying))
+                        name=obj.name, map=left.uv_map))
+                if left.weights:
+                    self.report({"INFO"}, rpt_("{name}: weights of the armature were changed by hand and stay").format(
+                        name=obj.name))
         shading.restore_colors(context)

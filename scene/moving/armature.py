@@ -16,6 +16,7 @@ from .. import outputs, property_updates, targets, transaction
 from ..errors import SceneError
 from ..modes import call_with, set_mode
 from ..ours import made_objects, modifiers
+from ..ours.surroundings import Surroundings
 from ..pieces import origins, part_meshes
 from ..reading import mesh_arrays, mesh_groups, placing
 from ..result import part_names
@@ -48,26 +49,56 @@ def remove_modifier(obj: bpy.types.Object) -> None:
 
 
 def _modifier(obj: bpy.types.Object) -> bpy.types.ArmatureModifier | None:
-    """Our modifier on an object, or None."""
-    modifier = obj.modifiers.get(NAME)
-    return modifier if modifier is not None and modifier.type == "ARMATURE" else None
+    """Our modifier on an object, or None: one that the user has given another armature is the user's."""
+    return next((modifier for modifier in obj.modifiers
+                 if modifier.type == "ARMATURE" and part_names.without_number(modifier.name) == NAME
+                 and (modifier.object is None or made_objects.ROLE in modifier.object)), None)
 
 
-def remove_weights(mesh: bpy.types.Mesh) -> None:
+def clear(mesh: bpy.types.Mesh) -> bool:
+    """Take our modifier off the objects of a mesh, and our weights off the mesh; the armature stays.
+
+    Where weights were changed by hand, all of it stays, and is the user's: then True.
+    """
+    if _hand_over_weights(mesh):
+        return True
+    for obj in targets.users(mesh):
+        remove_modifier(obj)
+    _remove_weights(mesh)
+    return False
+
+
+def _hand_over_weights(mesh: bpy.types.Mesh) -> bool:
+    """Let weights that the user has changed be the user's, with the armature that they are for; whether they were.
+
+    Where vertices have come or gone, only if the user has worked on that, too: else weights would stay, under names
+    that new ones should have, after each edit of the mesh.
+    """
+    rigs = {modifier.object for obj in targets.users(mesh) if (modifier := _modifier(obj)) is not None
+            and modifier.object is not None}
+    around = Surroundings.now()
+    worked_on = not all(made_objects.is_as_made(rig, _former_looks, around) for rig in rigs)
+    if not mesh_groups.weights_were_changed(mesh, worked_on):
+        return False
+    made_objects.hand_over(mesh, mesh_groups.WEIGHTS, mesh_groups.MADE)
+    for rig in rigs:
+        made_objects.hand_over(rig, made_objects.ROLE, made_objects.MADE)
+    return True
+
+
+def _remove_weights(mesh: bpy.types.Mesh) -> None:
     """Remove the vertex groups that hold our weights."""
     transaction.keep_mesh(mesh)
-    transaction.keep_keys(mesh, mesh_groups.WEIGHTS)
     names = mesh_groups.of_weights(mesh)
     for obj in targets.users(mesh)[:1] if names else ():
         for name in names:
             outputs.vertex_groups.remove_one(obj, name)
-    if mesh_groups.WEIGHTS in mesh:
-        del mesh[mesh_groups.WEIGHTS]
+    made_objects.hand_over(mesh, mesh_groups.WEIGHTS, mesh_groups.MADE)
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool,
          weights: str = "SMOOTH") -> Made:
-    """Make an armature in place of an earlier one, unless the user has worked on that one; Object Mode.
+    """Make an armature in place of an earlier one, unless the user has worked on that one, or its weights; Object Mode.
 
     Parameters
     ----------
@@ -95,7 +126,9 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     found = skeleton(obj, numbered, limbs=weights != "PARTS")
     # The parts' own groups have no sides, by which the mirrored half of a half model would follow other bones.
     own_groups = weights != "PARTS" or found.is_half
-    remove_weights(obj.data)
+    modifier = _modifier(obj)
+    n_kept = int(_hand_over_weights(obj.data))
+    _remove_weights(obj.data)
     if own_groups:
         groups = _new_groups(obj, found)
     else:
@@ -116,20 +149,22 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     made_objects.mark([rig])
     if own_groups:
         _write_weights(obj, groups, found.of_mesh(_weights(context, obj, rig, groups, found, weights)))
+        mesh_groups.mark_weights(obj.data)
     if deform:
-        modifier = _modifier(obj) or modifiers.new(obj, NAME, "ARMATURE")
+        modifier = modifier or modifiers.new(obj, NAME, "ARMATURE")
         transaction.keep(modifier, "object")
         modifier.object = rig
-    else:
-        remove_modifier(obj)
+    elif modifier is not None:
+        modifiers.remove(obj, modifier)
     origins.hand_on(obj, earlier.gone, [(role, rig)])
-    return Made(rig, found.n_stiff, earlier.kept)
+    return Made(rig, found.n_stiff, earlier.kept + n_kept)
 
 
 def other_rig(obj: bpy.types.Object) -> bpy.types.Object | None:
     """An armature of the user's that moves an object, if there is one."""
+    ours = _modifier(obj)
     return next((modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE"
-                 and modifier.name != NAME and modifier.show_viewport and modifier.object is not None), None)
+                 and modifier != ours and modifier.show_viewport and modifier.object is not None), None)
 
 
 def check_alone(obj: bpy.types.Object) -> None:

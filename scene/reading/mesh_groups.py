@@ -17,9 +17,10 @@ from bmesh.types import BMesh
 
 from ...core.arrays.indexing import begins_run
 from ..temporary import removed
-from . import matrix_layers
+from . import fingerprints, matrix_layers
 
 WEIGHTS = "reeb_parts_weights"  # on a mesh: the names of the groups with the weights of our armature, as JSON
+MADE = "reeb_parts_weights_digest"  # and how many vertices it had, and what weights, when we wrote them
 
 _lent: list[bpy.types.Object] = []  # objects that are given one mesh after the other
 
@@ -30,6 +31,33 @@ def of_weights(mesh: bpy.types.Mesh) -> list[str]:
         return [str(name) for name in json.loads(mesh.get(WEIGHTS, "[]"))]
     except (ValueError, TypeError):  # not written by us
         return []
+
+
+def mark_weights(mesh: bpy.types.Mesh) -> None:
+    """Remember what the weights of our armature are, now that they are written; Object Mode."""
+    mesh[MADE] = f"{len(mesh.vertices)} {_digest(mesh)}"
+
+
+def weights_were_changed(mesh: bpy.types.Mesh, of_other_vertices: bool) -> bool:
+    """Whether the weights of our armature are others than we wrote; Object Mode.
+
+    of_other_vertices : the answer if they are and there are more vertices, or fewer, since then Blender has made some.
+    """
+    count, _, known = mesh.get(MADE, "").partition(" ")
+    if not known or _digest(mesh) == known:  # earlier versions kept nothing
+        return False
+    return True if count == str(len(mesh.vertices)) else of_other_vertices
+
+
+def _digest(mesh: bpy.types.Mesh) -> str:
+    """Differs once a weight of our armature has changed, or one of its groups got another name."""
+    names = of_weights(mesh)
+    with twin(mesh) as obj:
+        there = {group.name: group.index for group in obj.vertex_groups}
+    place = {there[name]: index for index, name in enumerate(names) if name in there}
+    found = [(place[entry.group], vertex.index, entry.weight) for vertex in mesh.vertices
+             for entry in vertex.groups if entry.group in place]  # cannot be read in bulk
+    return fingerprints.digest(np.array(sorted(found), np.float64), np.array(sorted(place.values()), np.int64))
 
 
 @contextmanager

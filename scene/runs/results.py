@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -128,21 +128,24 @@ def _keep_colors(mesh: bpy.types.Mesh) -> None:
             outputs.keep_places(mesh, store.last(mesh).shown_parts())
 
 
-def clear(obj: bpy.types.Object) -> str:
-    """Remove parts, graph and stored result of an object; Object Mode.
+class Left(NamedTuple):
+    """What stays, as it was changed by hand: the name of the UV map along cuts, or ""; the weights of the armature."""
 
-    Returns the name of the UV map along cuts if it was changed by hand, and so stays, else "".
-    """
+    uv_map: str
+    weights: bool
+
+
+def clear(obj: bpy.types.Object) -> Left:
+    """Remove parts, graph and stored result of an object; Object Mode."""
     transaction.keep_mesh(obj.data)
     orphan_outputs.remove(obj)
     for user in targets.users(obj.data):
         explode.forget(user)
         hidden.forget(user)
-        armature.remove_modifier(user)
         graph_objects.remove(user)
     hidden.forget_faces(obj.data)
-    armature.remove_weights(obj.data)
-    staying = uv_map.remove(obj.data)
+    weights_stay = armature.clear(obj.data)
+    map_that_stays = uv_map.remove(obj.data)
     outputs.remove_outputs(obj)
     transaction.unset_group(obj.data, "reeb_parts")
-    return staying
+    return Left(map_that_stays, weights_stay)

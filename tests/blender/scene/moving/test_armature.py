@@ -302,6 +302,99 @@ def test_whatever_is_done_to_an_armature_it_is_kept(obj, use):
     assert rig_of(obj) != rig
 
 
+def painted(obj):
+    """Paint weights of a bone, as in Weight Paint; what all weights are then."""
+    obj.vertex_groups[DEFORM + obj.data.reeb_parts.parts[0].name].add([0, 1, 2], 0.25, "REPLACE")
+    return weights_by_name(obj)
+
+
+def weights_by_name(obj):
+    names = obj.vertex_groups.keys()
+    return {(names[entry.group], vertex.index): entry.weight for vertex in obj.data.vertices
+            for entry in vertex.groups if names[entry.group].startswith(DEFORM)}
+
+
+def test_weights_that_were_painted_stay_with_their_armature(obj):
+    """Another run replaced them, with hours of work."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    rig, weights = rig_of(obj), painted(obj)
+    bones = rig.data.bones.keys()
+    bpy.ops.reeb_parts.armature()
+    assert rig in bpy.data.objects[:]
+    assert rig_of(obj) != rig
+    assert rig.data.bones.keys() == bones
+    assert not set(bones) & set(rig_of(obj).data.bones.keys())
+    assert weights.items() <= weights_by_name(obj).items()
+    new = rig_of(obj)
+    bpy.ops.reeb_parts.armature()  # of the new ones nothing was changed
+    assert new not in bpy.data.objects[:]
+    assert weights.items() <= weights_by_name(obj).items()
+    assert len(weights_by_name(obj)) < 3 * len(weights)
+    bpy.ops.reeb_parts.clear()
+    assert weights_by_name(obj) == weights
+
+
+def test_clear_leaves_weights_that_were_painted_and_the_modifier(obj, capfd, tmp_path):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    rig, weights = rig_of(obj).name, painted(obj)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "rig.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "rig.blend"))
+    obj = bpy.data.objects["Tree"]
+    bpy.ops.reeb_parts.clear()
+    assert "weights of the armature were changed by hand and stay" in capfd.readouterr().out
+    assert weights_by_name(obj) == weights
+    assert [modifier.object.name for modifier in obj.modifiers] == [rig]
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    bpy.ops.reeb_parts.clear()
+    assert weights_by_name(obj) == weights
+    assert [modifier.object.name for modifier in obj.modifiers] == [rig]
+
+
+@pytest.mark.parametrize("posed", [False, True])
+def test_weights_of_an_edited_mesh_stay_if_the_armature_was_worked_on(obj, posed):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    rig = rig_of(obj)
+    if posed:
+        rig.pose.bones[0].location = (0, 0, 1)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    weights = weights_by_name(obj)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    assert (rig in bpy.data.objects[:]) == posed
+    assert (weights.items() <= weights_by_name(obj).items()) == posed
+    names = {DEFORM + part.name for part in obj.data.reeb_parts.parts}
+    assert (set(rig_of(obj).data.bones.keys()) <= names) != posed
+
+
+def test_a_modifier_that_was_given_another_armature_is_the_users(obj):
+    """Another run gave it ours, and Clear took it away."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    mine = bpy.data.objects.new("Mine", bpy.data.armatures.new("Mine"))
+    bpy.context.scene.collection.objects.link(mine)
+    obj.modifiers["Reeb Parts Armature"].object = mine
+    for _ in range(2):
+        bpy.ops.reeb_parts.armature()
+        assert obj.modifiers[0].object == mine
+        assert len(obj.modifiers) == 2
+    bpy.ops.reeb_parts.clear()
+    assert [modifier.object for modifier in obj.modifiers] == [mine]
+
+
+def test_undo_with_weights_that_were_painted(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    painted(obj)
+    check_undo(bpy.ops.reeb_parts.armature)
+
+
 def test_clear_removes_the_modifier_and_leaves_the_armature(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature(deform=True)
