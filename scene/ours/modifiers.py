@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from .. import transaction
+from . import made_objects
 
 
 def new(obj: bpy.types.Object, name: str, kind: str) -> bpy.types.Modifier:
@@ -42,7 +43,37 @@ def remove_nodes(obj: bpy.types.Object, ours: str) -> None:
         unused = group.users == 1
         remove(obj, modifier)
         if unused:
-            transaction.discard(group)
+            _give_up_nodes(group, ours)
+
+
+def set_nodes(modifier: bpy.types.NodesModifier, group: bpy.types.NodeTree, ours: str) -> None:
+    """Give such a modifier other nodes; those that it has go if nothing else uses them."""
+    former = modifier.node_group
+    transaction.keep(modifier, "node_group")
+    modifier.node_group = group
+    if former is not None and not former.users:
+        _give_up_nodes(former, ours)
+
+
+def _give_up_nodes(group: bpy.types.NodeTree, ours: str) -> None:
+    """Remove nodes of such a modifier that nothing uses any more; those that the user has changed stay in the file."""
+    if group[ours] in (True, _told(group)):  # earlier versions kept nothing
+        transaction.discard(group)
+        return
+    transaction.keep(group, "use_fake_user")
+    group.use_fake_user = True
+    made_objects.hand_over(group, ours)
+
+
+def mark_nodes(group: bpy.types.NodeTree, ours: str) -> None:
+    """Remember what nodes of such a modifier are like, now that they are made."""
+    group[ours] = _told(group)
+
+
+def _told(group: bpy.types.NodeTree) -> str:
+    """Differs once nodes are others, or linked otherwise."""
+    return str([sorted((node.name, node.bl_idname, node.mute) for node in group.nodes),
+                sorted((link.from_socket.path_from_id(), link.to_socket.path_from_id()) for link in group.links)])
 
 
 def new_nodes(name: str, ours: str) -> bpy.types.NodeTree:

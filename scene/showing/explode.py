@@ -63,10 +63,11 @@ def _ensure(obj: bpy.types.Object) -> None:
     name = _face_attribute(obj)
     modifier = find(obj) or modifiers.new(obj, NAME, "NODES")
     group = modifier.node_group
-    if group is None or _source(group) != obj:
-        # A copy of the object comes with the group of the original, which listens to the original.
-        transaction.keep(modifier, "node_group")
-        modifier.node_group = group = _node_group(obj)
+    if group is None or _source(group) != obj or "Part" not in group.nodes:
+        # A copy of the object comes with the group of the original, which listens to the original; and the user may
+        # have renamed nodes, or removed some.
+        group = _node_group(obj)
+        modifiers.set_nodes(modifier, group, OURS)
     for node in (group.nodes["Part"], group.nodes.get("Number")):
         if node is not None:  # files of before have no such node
             socket = node.inputs["Name"]
@@ -106,6 +107,7 @@ def _node_group(obj: bpy.types.Object) -> bpy.types.NodeTree:
     made.link(made.math("SCALE", offset, amount.outputs[0]), move.inputs["Offset"])
     made.link(move.outputs[0], end.inputs[0])
     _drive(amount.outputs[0], obj)
+    modifiers.mark_nodes(group, OURS)
     return group
 
 

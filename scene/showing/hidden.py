@@ -89,8 +89,9 @@ def _ensure(obj: bpy.types.Object, attribute: str) -> None:
     modifier = find(obj)
     if modifier is None:
         modifier = modifiers.new(obj, NAME, "NODES")
-        modifier.node_group = _node_group()
         modifier.show_render = False
+    if modifier.node_group is None or "Hidden" not in modifier.node_group.nodes:  # which the user has renamed
+        modifiers.set_nodes(modifier, _node_group(), OURS)
     socket = modifier.node_group.nodes["Hidden"].inputs["Name"]
     transaction.keep(socket, "default_value")
     socket.default_value = attribute
@@ -109,4 +110,5 @@ def _node_group() -> bpy.types.NodeTree:
     for source, target in ((start.outputs[0], left.inputs["Geometry"]), (value, left.inputs["Selection"]),
                            (left.outputs[0], end.inputs[0])):
         group.links.new(source, target)
+    modifiers.mark_nodes(group, OURS)
     return group

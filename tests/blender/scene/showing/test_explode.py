@@ -139,6 +139,33 @@ def test_after_the_modifier_was_applied_the_slider_begins_at_zero_again(obj):
     assert not obj.modifiers
 
 
+@pytest.mark.parametrize("again", [0.0, 0.7])
+def test_nodes_that_the_user_has_changed_stay_in_the_file(obj, again):
+    """They were gone once the slider was at 0; and where one was renamed, the slider ended in an error."""
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 0.5
+    mine = obj.modifiers[0].node_group
+    mine.nodes.new("GeometryNodeTransform").name = "Turn"
+    mine.nodes["Part"].name = "Which"
+    obj.reeb_parts_made.explode = again
+    assert "Turn" in mine.nodes
+    assert mine.use_fake_user
+    assert [modifier.node_group for modifier in obj.modifiers] != [mine]
+    obj.reeb_parts_made.explode = 0.5
+    assert np.allclose(shown(obj), expected(obj, 0.5), atol=1e-5)
+    bpy.ops.reeb_parts.clear()
+    assert bpy.data.node_groups[:] == [mine]
+
+
+def test_nodes_of_ours_go_in_a_file_that_was_saved(obj, tmp_path):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 0.5
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "apart.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "apart.blend"))
+    bpy.data.objects["Tree"].reeb_parts_made.explode = 0.0
+    assert bpy.data.node_groups[:] == []
+
+
 def test_it_needs_no_output(obj):
     bpy.ops.reeb_parts.decompose(face_attribute=False)
     obj.reeb_parts_made.explode = 1.0

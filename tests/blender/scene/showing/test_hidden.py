@@ -113,6 +113,19 @@ def test_clear_leaves_hidden_what_was_hidden_in_edit_mode_before(obj, result, wa
     assert not [name for name in obj.data.attributes.keys() if "reeb" in name]  # noqa: SIM118
 
 
+def test_where_the_user_has_renamed_a_node_parts_are_hidden_all_the_same(obj, result):
+    """It ended in an error; the nodes that were changed stay in the file."""
+    result.active = 0
+    bpy.ops.reeb_parts.hide()
+    mine = obj.modifiers[0].node_group
+    mine.nodes["Hidden"].name = "Mine"
+    result.active = 1
+    assert bpy.ops.reeb_parts.hide() == {"FINISHED"}
+    assert {part.number for part in result.parts[:2]}.isdisjoint(seen(obj))
+    assert "Mine" in mine.nodes
+    assert mine.use_fake_user
+
+
 def test_pieces_of_hidden_parts_are_seen(obj, result):
     count = len(result.parts)
     choose(result, 1)
