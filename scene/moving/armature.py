@@ -181,6 +181,7 @@ def _new_groups(obj: bpy.types.Object, found: Skeleton) -> list[str]:
     """A vertex group for the weights of each bone; their names."""
     mesh = obj.data
     transaction.keep_mesh(mesh)
+    transaction.keep_keys(mesh, mesh_groups.WEIGHTS, mesh_groups.MADE)
     active = obj.vertex_groups.active_index
     wanted = _sided_names(obj, found) if found.is_half else [part_names.fitted(DEFORM + name) for name in found.names]
     names = [obj.vertex_groups.new(name=name).name for name in wanted]
