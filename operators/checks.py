@@ -80,7 +80,8 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         pieces = _chosen_pieces(context, self.report)
-        shared = ", ".join(piece.name for piece in pieces if piece.data.users > 1)
+        shared = ", ".join(piece.name for piece in pieces
+                           if len(targets.users(piece.data)) > 1 or piece.data.asset_data)
         if shared:
             raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=shared))
         found = [piece_repairs.repair(piece, bridge.world_stretch(piece)) for piece in pieces]

@@ -127,6 +127,25 @@ def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, sh
     assert volume(piece.data) == pytest.approx(size, rel=1e-3)
 
 
+def test_what_refers_to_a_mesh_refers_to_the_repaired_one(obj):
+    """A fake user, or a property, was taken for another object that shares the mesh; keys got another name."""
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Fat").value = 0.3
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    piece = pieces_of()[0]
+    activate(piece)
+    piece.data.use_fake_user, piece.data.name, piece.data.shape_keys.name = True, "Mine", "My keys"
+    piece.data["own"], bpy.context.scene["mine"] = 1, piece.data
+    former, n_meshes = piece.data.session_uid, len(bpy.data.meshes)
+    assert bpy.ops.reeb_parts.repair_piece() == {"FINISHED"}
+    assert piece.data.session_uid != former
+    assert bpy.context.scene["mine"] == piece.data
+    assert (piece.data.name, piece.data.shape_keys.name, piece.data["own"]) == ("Mine", "My keys", 1)
+    assert piece.data.use_fake_user
+    assert len(bpy.data.meshes) == n_meshes
+
+
 def test_all_selected_pieces_are_repaired(obj, checks):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(caps=True)
