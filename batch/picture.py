@@ -83,12 +83,18 @@ def render_parts(objects: list[tuple[bpy.types.Object, bpy.types.Collection | No
     made = [scene]
     try:
         parts = {name: _collection(scene, name, made) for name in ("floor", "model", "graph")}
-        points = np.concatenate([_points(obj) for obj, _ in objects])
+        shapes = [_points(obj) for obj, _ in objects]
+        points = np.concatenate(shapes)
+        # Around the origin: single precision is finest there, and the camera stands before it.
+        middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+        to_middle, points = Matrix.Translation(-Vector(middle)), points - middle
         extent = float(np.linalg.norm(np.ptp(points, axis=0)))
-        for obj, graph in objects:
-            _add_model(obj, parts["model"], made)
+        for (obj, graph), shape in zip(objects, shapes, strict=True):
+            _add_model(obj, to_middle, parts["model"], made)
             if graph is not None:
-                _add_graph(graph, extent, parts["graph"], made)
+                # By the size of this one: where several stand far apart, a share of all would bury each.
+                own = float(np.linalg.norm(np.ptp(shape, axis=0)))
+                _add_graph(graph, to_middle, own, parts["graph"], made)
         _add_floor(points, extent, parts["floor"], made)
         _add_light(scene, view, made)
         _add_camera(scene, points, view, size, made)
@@ -112,36 +118,38 @@ def _place(data: bpy.types.ID, name: str, collection: bpy.types.Collection, made
            matrix: Matrix | None = None) -> bpy.types.Object:
     """A new object in the collection, rendered even if its like in the user's scene is not."""
     obj = bpy.data.objects.new(name, data)
-    obj.matrix_world = matrix or Matrix()
+    placing.put(obj, matrix or Matrix())
     collection.objects.link(obj)
     made += [obj, data]
     return obj
 
 
-def _add_model(obj: bpy.types.Object, collection: bpy.types.Collection, made: list[bpy.types.ID]) -> None:
-    """The object's mesh in its part colors."""
+def _add_model(obj: bpy.types.Object, moved: Matrix, collection: bpy.types.Collection,
+               made: list[bpy.types.ID]) -> None:
+    """The object's mesh in its part colors, moved from where it is."""
     mesh = obj.data.copy()
     name = mesh.color_attributes.active_color_name
     mesh.shade_smooth()
     mesh.set_sharp_from_angle(angle=0.8)
     mesh.materials.clear()
     mesh.materials.append(_material("parts", made, attribute=name))
-    _place(mesh, "model", collection, made, obj.matrix_world.copy())
+    _place(mesh, "model", collection, made, moved @ placing.world_matrix(obj))
 
 
-def _add_graph(graph: bpy.types.Collection, extent: float, collection: bpy.types.Collection,
+def _add_graph(graph: bpy.types.Collection, moved: Matrix, extent: float, collection: bpy.types.Collection,
                made: list[bpy.types.ID]) -> None:
-    """Arcs as tubes and nodes as balls, both of a size that shows at this distance."""
+    """Arcs as tubes and nodes as balls, both of a size that shows on a model of this extent, moved with it."""
     arcs = _material("arcs", made, color=ARC_COLOR)
     for source in graph.all_objects:
         if source.type == "CURVE":
             curve = source.data.copy()
+            curve.transform(moved @ placing.world_matrix(source))  # or the tubes would be as thick as it is scaled
             curve.bevel_depth, curve.bevel_resolution, curve.use_fill_caps = 0.0042 * extent, 3, True
             for spline in curve.splines:
                 spline.points.foreach_set("radius", np.ones(len(spline.points), np.float32))
             curve.materials.clear()
             curve.materials.append(arcs)
-            _place(curve, "arcs", collection, made, source.matrix_world.copy())
+            _place(curve, "arcs", collection, made)
     materials = {kind: _material(kind, made, color=color) for kind, color in NODE_COLORS.items()}
     for source in graph.all_objects:
         if source.type == "EMPTY" and source.get("kind") in materials:
@@ -152,7 +160,7 @@ def _add_graph(graph: bpy.types.Collection, extent: float, collection: bpy.types
                     face.smooth = True
                 bm.to_mesh(ball)
             ball.materials.append(materials[source["kind"]])
-            _place(ball, "node", collection, made, Matrix.Translation(source.matrix_world.translation))
+            _place(ball, "node", collection, made, Matrix.Translation(moved @ placing.world_matrix(source).translation))
 
 
 def _material(name: str, made: list[bpy.types.ID], *, attribute: str | None = None,
@@ -208,7 +216,7 @@ def _add_floor(points: np.ndarray, extent: float, collection: bpy.types.Collecti
 
 def _points(obj: bpy.types.Object) -> np.ndarray:
     """Vertices of the object in the world, (n, 3)."""
-    return placing.transformed(mesh_arrays.read(obj.data.vertices, "co", np.float32, 3), obj.matrix_world)
+    return placing.transformed(mesh_arrays.shown_points(obj), placing.world_matrix(obj))
 
 
 def _add_camera(scene: bpy.types.Scene, points: np.ndarray, view: Sequence[float], size: tuple[int, int],
