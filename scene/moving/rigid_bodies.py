@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from .. import transaction
 from ..ours import made_objects
@@ -113,6 +113,7 @@ def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray) -> None:
     masses = (volume / max(volume.mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
     for some, mass in zip(bodies, masses, strict=True):
         for piece in [piece for piece in some if piece.rigid_body is None]:
+            _stand_upright(piece)
             _add_body(site.physics, piece, mass / len(some))
 
 
@@ -155,6 +156,32 @@ def _world(context: bpy.types.Context) -> bpy.types.RigidBodyWorld:
             transaction.keep(physics, name)
             setattr(physics, name, bpy.data.collections.new(called))
     return physics
+
+
+def _stand_upright(piece: bpy.types.Object) -> None:
+    """Have the mesh of a piece carry what mirrors or shears it: Blender drops that of a body once it moves."""
+    world = placing.world_matrix(piece)
+    place, turn, scale = world.decompose()
+    upright = Matrix.LocRotScale(place, turn, Vector(map(abs, scale)))
+    is_sheared = not placing.is_alike(Matrix.LocRotScale(place, turn, scale), world)
+    # Modifiers such as Mirror act along the axes of the mesh, of which a shear leaves none as it was.
+    if placing.is_alike(upright, world) or piece.constraints or (is_sheared and piece.modifiers):
+        return
+    moved, former = upright.inverted_safe() @ world, piece.data
+    name, mesh = former.name, former.copy()
+    mesh.transform(moved, shape_keys=True)
+    if moved.determinant() < 0:
+        mesh.flip_normals()
+    transaction.keep(piece, "data", "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+    for item in (piece, *piece.children):
+        transaction.on_failure(setattr, item, "matrix_parent_inverse", item.matrix_parent_inverse.copy())
+    for child in piece.children:
+        child.matrix_parent_inverse = moved @ child.matrix_parent_inverse
+    piece.matrix_parent_inverse = piece.matrix_parent_inverse @ piece.matrix_basis @ world.inverted_safe()
+    piece.data, piece.matrix_basis = mesh, upright
+    if not former.users:
+        transaction.discard(former)
+        mesh.name = name
 
 
 def _add_body(physics: bpy.types.RigidBodyWorld, piece: bpy.types.Object, mass: float) -> None:

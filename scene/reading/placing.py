@@ -31,13 +31,17 @@ def put(item: bpy.types.Object, matrix: Matrix) -> None:
 
     What shears, as a parent with another scale along each axis does, is no place of an object: then its mesh is moved.
     """
-    nearest = Matrix.LocRotScale(*matrix.decompose())
-    if np.abs(np.array(nearest) - np.array(matrix)).max() <= 1e-5 * max(np.abs(np.array(matrix)).max(), 1e-30):
+    if is_alike(Matrix.LocRotScale(*matrix.decompose()), matrix):
         item.matrix_world = matrix
         return
     item.data.transform(matrix, shape_keys=True)
     if matrix.determinant() < 0:
         item.data.flip_normals()
+
+
+def is_alike(one: Matrix, other: Matrix) -> bool:
+    """Whether two places are one, but for rounding."""
+    return bool(np.abs(np.array(one) - np.array(other)).max() <= 1e-5 * max(np.abs(np.array(other)).max(), 1e-30))
 
 
 def millimeters() -> float:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """reeb_parts.rigid_bodies: separated parts fall, and what was joined stays together at the cuts."""
 
+import sys
+
 import bpy
 import numpy as np
 import pytest
@@ -64,6 +66,56 @@ def test_pieces_that_fall_stay_together_at_the_cuts(obj, kind):
         others = [now[:3, :3] @ np.linalg.inv(old[1][:3, :3]) for (_, now), old in
                   ((matrices(pair), old) for pair, old in zip(ends, before, strict=True))]
         assert np.allclose(turns, others, atol=0.1)
+
+
+def in_world(pieces):
+    """Middle of each face of pieces and its area, a vector that looks out of what is seen, (f, 6)."""
+    faces = []
+    for piece in pieces:
+        world, turned = piece.matrix_world, -1 if piece.matrix_world.determinant() < 0 else 1
+        for polygon in piece.data.polygons:
+            corners = np.array([world @ piece.data.vertices[index].co for index in polygon.vertices])
+            area = 0.5 * np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+            faces.append([*corners.mean(axis=0), *(turned * area)])
+    return np.array(faces)
+
+
+@pytest.mark.parametrize(("scale", "is_sheared"), [((-1, 2, 0.5), False), ((1, 2, 0.5), True), ((-1, 2, 0.5), True)])
+def test_a_mirrored_or_sheared_piece_keeps_its_shape_when_it_moves(obj, scale, is_sheared):
+    """Blender drops both of a body: pieces became their mirror images or straight at the second frame, and in files."""
+    obj.scale, obj.rotation_euler = scale, (0.4, 0.2, 0.9)
+    if is_sheared:
+        obj.parent = bpy.data.objects.new("Parent", None)
+        bpy.context.scene.collection.objects.link(obj.parent)
+        obj.parent.scale, obj.parent.rotation_euler = (1, 3, 1), (0.1, 0.5, 0.2)
+    bpy.context.view_layer.update()
+    pieces = separated(obj)
+    child = bpy.data.objects.new("Child", None)
+    bpy.context.scene.collection.objects.link(child)
+    child.parent, child.location = pieces[0], (1, 2, 3)
+    bpy.context.view_layer.update()
+    before, place = in_world(pieces), np.array(child.matrix_world)
+    names = [piece.data.name for piece in pieces]
+    bpy.ops.reeb_parts.rigid_bodies(joints="FIXED")
+    bpy.context.view_layer.update()
+    assert np.allclose(in_world(pieces), before, atol=1e-4)
+    assert np.allclose(np.array(child.matrix_world), place, atol=1e-4)
+    bpy.context.scene.frame_set(1)
+    bpy.context.scene.frame_set(2)
+    assert np.allclose(in_world(pieces), before, atol=0.05)
+    assert [piece.data.name for piece in pieces] == names
+
+
+def test_a_mirrored_piece_is_as_it_was_if_its_body_cannot_be_made(obj, package, monkeypatch):
+    module = sys.modules[f"{package}.scene.moving.rigid_bodies"]
+    obj.scale.x = -1
+    separated(obj)
+    bpy.context.view_layer.update()
+    before = snapshot()
+    monkeypatch.setattr(module, "_joints_at_cuts", lambda *_: 1 / 0)
+    with pytest.raises(RuntimeError):
+        bpy.ops.reeb_parts.rigid_bodies()
+    assert snapshot() == before
 
 
 def test_joints_are_where_parts_meet(obj):
