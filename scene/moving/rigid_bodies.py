@@ -169,9 +169,7 @@ def _stand_upright(piece: bpy.types.Object) -> None:
         return
     moved, former = upright.inverted_safe() @ world, piece.data
     name, mesh = former.name, former.copy()
-    mesh.transform(moved, shape_keys=True)
-    if moved.determinant() < 0:
-        mesh.flip_normals()
+    placing.move(mesh, moved)
     transaction.keep(piece, "data", "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
     for item in (piece, *piece.children):
         transaction.on_failure(setattr, item, "matrix_parent_inverse", item.matrix_parent_inverse.copy())

@@ -34,9 +34,14 @@ def put(item: bpy.types.Object, matrix: Matrix) -> None:
     if is_alike(Matrix.LocRotScale(*matrix.decompose()), matrix):
         item.matrix_world = matrix
         return
-    item.data.transform(matrix, shape_keys=True)
+    move(item.data, matrix)
+
+
+def move(mesh: bpy.types.Mesh, matrix: Matrix) -> None:
+    """Move a mesh that is ours, with its shape keys; faces of its mirror image look out as those of the mesh do."""
+    mesh.transform(matrix, shape_keys=True)
     if matrix.determinant() < 0:
-        item.data.flip_normals()
+        mesh.flip_normals()
 
 
 def is_alike(one: Matrix, other: Matrix) -> bool:

@@ -159,7 +159,7 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
     for piece in (*pieces, *dowels):
         piece.update_from_editmode()
         mesh = piece.data.copy()
-        mesh.transform(to_object @ placing.world_matrix(piece), shape_keys=True)
+        placing.move(mesh, to_object @ placing.world_matrix(piece))
         copies[piece.name] = _stand_in(piece.name, mesh, piece)
     return copies
 

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from mathutils import Matrix
 from places import world_points
 from snapshot import activate, snapshot
 from threemf_reader import read_3mf
@@ -254,11 +255,14 @@ def test_of_chosen_parts_only_their_pieces_are_written(obj, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == [f"Tree {obj.data.reeb_parts.parts[1].name}.stl"]
 
 
-@pytest.mark.parametrize("separated", [False, True])
+@pytest.mark.parametrize("separated", ["", "AS_MADE", "APPLIED"])
 @pytest.mark.parametrize("sheared", [False, True])
 @pytest.mark.parametrize("kind", IMPORT)
 def test_mirrored_objects_are_not_inside_out_in_files(obj, tmp_path, kind, sheared, separated):
-    """A .ply was, whose exporter leaves the order of the corners as it is."""
+    """A .ply was, whose exporter leaves the order of corners as it is; and all were of pieces in a place of their own.
+
+    Such are those whose scale was applied.
+    """
     obj.scale = (-1, 1, 1)
     if sheared:
         parent = bpy.data.objects.new("Parent", None)
@@ -268,8 +272,13 @@ def test_mirrored_objects_are_not_inside_out_in_files(obj, tmp_path, kind, shear
     bpy.ops.reeb_parts.decompose(n_parts=2)
     if separated:
         bpy.ops.reeb_parts.separate(caps=True, hide=False)
+        if separated == "APPLIED":
+            for piece in [item for item in bpy.data.objects if "reeb_parts_number" in item]:
+                piece.data.transform(piece.matrix_world)
+                piece.data.flip_normals()
+                piece.parent, piece.matrix_basis = None, Matrix()
         activate(obj)
-    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, caps=True, separated=separated)
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, caps=True, separated=bool(separated))
     files = sorted(tmp_path.glob(f"*.{kind}"))
     assert len(files) == 2
     for file in files:
