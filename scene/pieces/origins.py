@@ -91,12 +91,12 @@ def include(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> No
 
 def made_of(obj: bpy.types.Object, kind: str) -> list[bpy.types.Object]:
     """What was made from an object's parts and is still there. kind : a custom property that it has, such as NUMBER."""
-    return [item for item in (*_inside(obj), *_away(obj)) if kind in item]
+    return [item for item in _made(obj) if kind in item]
 
 
 def has_any(obj: bpy.types.Object, kind: str) -> bool:
     """Whether ``made_of`` finds anything; most are found at once."""
-    return any(kind in item for item in _inside(obj)) or any(kind in item for item in _away(obj))
+    return any(kind in item for item in _made(obj))
 
 
 def is_made(item: bpy.types.Object) -> bool:
@@ -202,6 +202,12 @@ def _held() -> list[tuple[bpy.types.Object, bpy.types.Collection]]:
 def _is_claimed(item: bpy.types.Object, obj: bpy.types.Object) -> bool:
     """Whether what lies in the collection of an object was made from it, not moved there from another one's."""
     return KEY not in item or item[KEY] == _key(obj)
+
+
+def _made(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """What was made from an object's parts, and the user's own beside it; not what has been replaced just now."""
+    for found in (_inside, _away):
+        yield from (item for item in found(obj) if not transaction.is_discarded(item))
 
 
 def _inside(obj: bpy.types.Object) -> list[bpy.types.Object]:

@@ -123,6 +123,25 @@ def test_what_is_made_of_the_parts(run, model, tmp_path):
     assert sorted(tree.modifiers[0].object.data.bones.keys()) == [f"DEF-{part['name']}" for part in parts]
 
 
+def test_a_scene_that_was_saved_with_all_of_it_is_the_same_after_another_run(run, obj, tmp_path):
+    """Joints held pieces that were replaced in the same run: they stayed, named "Reeb Parts, to be removed" or so."""
+    names = []
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "0.blend"))
+    for before, after in (("0.blend", "1.blend"), ("1.blend", "2.blend")):
+        ended = run(tmp_path / before, "--separate", "--rigid-bodies", "--hulls", "godot", "--armature", "--unwrap",
+                    "--materials", "--save", tmp_path / after)
+        assert ended.status == 0
+        bpy.ops.wm.open_mainfile(filepath=str(tmp_path / after))
+        names.append({kind: sorted(item.name for item in getattr(bpy.data, kind))
+                      for kind in ("objects", "meshes", "curves", "collections", "armatures", "materials")})
+        joints = bpy.context.scene.rigidbody_world.constraints.objects
+        ends = {end for joint in joints for end in (joint.rigid_body_constraint.object1,
+                                                    joint.rigid_body_constraint.object2)}
+        assert ends == set(bpy.context.scene.rigidbody_world.collection.objects)
+    assert names[0] == names[1]
+    assert any(" - " in name for name in names[0]["objects"])
+
+
 def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):
     ended = run(two, "--json", tmp_path / "out.json", "--save", tmp_path / "out.blend")
     assert ended.status == 1
