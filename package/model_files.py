@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models read from files: .obj, .ply, .off and arrays here, what only Blender reads by Blender, others by trimesh."""
+"""Models read from files: .obj, .ply, .stl, .off and arrays here, by Blender what only it reads, others by trimesh."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ from .gltf_checks import read_header, unread
 from .obj_files import parse_obj
 from .off_files import parse_off
 from .ply_files import ASCII, read_ply
+from .stl_files import parse_stl
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx", ".usd", ".usda", ".usdc", ".usdz", ".abc")
@@ -206,6 +207,11 @@ def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return _read_by_trimesh(path)
 
 
+def _read_stl(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of an .stl."""
+    return parse_stl(path.read_bytes())
+
+
 def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a .glb or .gltf; raises NoReaderError where some would be missing."""
     if name := unread(read_header(path)):
@@ -217,49 +223,22 @@ def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 #: What reads files of a kind; trimesh all others.
 _READERS: dict[str, Callable[[Path], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
     ARRAYS: _read_arrays, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj, ".off": _read_off,
-    ".ply": _read_ply}
+    ".ply": _read_ply, ".stl": _read_stl}
 
 
-def _plain(path: Path) -> bytes:
-    """The bytes of a file; if its text is not UTF-8, with question marks for all of it that is not ASCII.
+def _plain_ply(data: bytes) -> bytes:
+    """The bytes of a .ply; if its text is not UTF-8, with question marks for all of it that is not ASCII.
 
     Names and comments in the encoding of some country do not matter, but trimesh would not read on.
     """
-    data = _whole_stl(path.read_bytes()) if path.suffix.lower() == ".stl" else path.read_bytes()
-    n_text = _TEXT[path.suffix.lower()](data)
+    end = data.find(b"end_header")
+    # All is text unless the second line says that the rest is binary.
+    n_text = end if end > 0 and re.match(rb"[^\n]*\n[^\n]*binary", data) else len(data)
     try:
         data[:n_text].decode()
     except UnicodeDecodeError:
         return data[:n_text].translate(ASCII) + data[n_text:]
     return data
-
-
-def _whole_stl(data: bytes) -> bytes:
-    """The bytes of an .stl without what follows its last face; raises ValueError if that is missing.
-
-    trimesh takes numbers for words, in which it finds no mesh, unless their length is what the header says.
-    """
-    if b"\0" not in data[80:] or re.search(rb"facet\s+normal", data, re.IGNORECASE):
-        return data
-    end = 84 + 50 * int.from_bytes(data[80:84], "little")
-    if len(data) < end:
-        raise ValueError("it ends before its last face")
-    return data[:end]
-
-
-def _text_of_stl(data: bytes) -> int:
-    """How many bytes of an .stl are text: its header if what it says of its length is true, else all."""
-    return 80 if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little") else len(data)
-
-
-def _text_of_ply(data: bytes) -> int:
-    """How many bytes of a .ply are text: its header if the second line says that the rest is binary, else all."""
-    end = data.find(b"end_header")
-    return end if end > 0 and re.match(rb"[^\n]*\n[^\n]*binary", data) else len(data)
-
-
-#: How many bytes at the beginning of files are text, by the kinds of files that may have text in them that is no UTF-8.
-_TEXT: dict[str, Callable[[bytes], int]] = {".stl": _text_of_stl, ".ply": _text_of_ply}
 
 
 def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -269,8 +248,8 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     # It takes names of meshes from that of the file, and not every one is UTF-8.
     resolver = trimesh.resolvers.FilePathResolver(path)
     resolver.file_name = readable(path.name)
-    data = _plain(path) if path.suffix.lower() in _TEXT else path.read_bytes()
-    with io.BytesIO(data) as stream:
+    data = path.read_bytes()
+    with io.BytesIO(_plain_ply(data) if path.suffix.lower() == ".ply" else data) as stream:
         # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
         scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
     meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]

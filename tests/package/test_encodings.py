@@ -87,8 +87,8 @@ def test_what_follows_the_last_face_of_an_stl_is_not_read(tree, tmp_path):
 
 
 def test_a_package_that_is_not_there_is_a_lack_of_a_reader(tree, tmp_path, monkeypatch):
-    monkeypatch.setattr(reeb_parts.model_files, "formats", lambda: (".ply", ".stl"))
-    for kind, package in (("ply", "plyfile"), ("stl", "trimesh")):
+    monkeypatch.setattr(reeb_parts.model_files, "formats", lambda: (".ply", ".glb"))
+    for kind, package in (("ply", "plyfile"), ("glb", "trimesh")):
         trimesh.Trimesh(*tree, process=False).export(tmp_path / f"tree.{kind}")
         with monkeypatch.context() as without:
             without.setitem(sys.modules, package, None)
