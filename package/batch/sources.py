@@ -51,7 +51,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     out : Path
         Folder of the results. It may have models in it; what runs made, there and elsewhere, is none.
     root : Path, optional
-        What names begin below; the innermost folder that holds all models without.
+        What names begin below; without it the folder that is a place, or the innermost one that holds all places.
     unread : callable(error), optional
         Told of each folder below a place, or on the way of a pattern, in which nobody can look.
 
@@ -66,11 +66,13 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         A place is none, there is no model anywhere, a model lies outside the root, or where its results belong.
     """
     out = Path(os.path.abspath(out))
+    places = list(places)
     paths = {path for place in places for path in _paths(place, kinds, unread)}
     if not paths:
         raise SourceError(Sentence("There is no model to decompose."))
     if root is None:
-        root = Path(os.path.commonpath([path.parent for path in paths]))
+        # Not that of the models: all would have other names, and be done again, when one comes or goes.
+        root = Path(os.path.commonpath([_folder_of(place) for place in places]))
     root = Path(os.path.abspath(root))
     outside = sorted(path for path in paths if not path.is_relative_to(root))
     if outside:
@@ -106,6 +108,17 @@ def _check_folders(sources: list[Source], out: Path) -> None:
     if lost:
         raise SourceError(Sentence("Results would take the place of {n} {n:model|models} (first: {first}). Choose "
                                    "another folder for --out.", n=len(lost), first=lost[0]))
+
+
+def _folder_of(place: str) -> str:
+    """The folder that a place is, in which it is, or in which its pattern begins; absolute."""
+    if os.path.isdir(place):
+        return os.path.abspath(place)
+    if not os.path.isfile(place):
+        while glob.has_magic(place):
+            place = os.path.dirname(place)
+        return os.path.abspath(place)
+    return os.path.dirname(os.path.abspath(place))
 
 
 def _look_into(pattern: str, unread: Callable[[OSError], object] | None) -> None:

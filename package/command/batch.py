@@ -49,8 +49,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--list", type=Path, action="append", default=[], metavar="FILE",
                         help="a file that lists more of them, one a line")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
-    parser.add_argument("--root", type=Path, metavar="DIR", help="folder below which models have their names; the "
-                        "innermost one that holds all of them without")
+    parser.add_argument("--root", type=Path, metavar="DIR", help="folder below which models have their names; "
+                        "without it that of MODELS, the innermost one that holds all of them")
     parser.add_argument("--blender", metavar="PATH", help="the Blender that reads " + ", ".join(BY_BLENDER))
     files = parser.add_argument_group("files for each model")
     files.add_argument("--json", action=argparse.BooleanOptionalAction, default=True, help="the JSON document")

@@ -744,8 +744,20 @@ def test_folders_patterns_lists_and_files_are_found_once_each(models, tmp_path, 
     assert names == ["damaged.ply", "deep/dumb bell.obj", "tree.ply"]
     assert [source.name for source in find_sources(["deep"], kinds, tmp_path)] == ["dumb bell.obj"]
     assert [source.name for source in find_sources(["deep"], kinds, tmp_path, models)] == ["deep/dumb bell.obj"]
-    assert [source.name for source in find_sources(["**/*.obj"], kinds, tmp_path)] == ["dumb bell.obj"]
+    assert [source.name for source in find_sources(["**/*.obj"], kinds, tmp_path)] == ["deep/dumb bell.obj"]
     assert [source.name for source in find_sources(["."], kinds, models / "deep")] == names
+
+
+@pytest.mark.parametrize("places", [["in"], ["in/*/*.ply"], ["in/**"], ["in/a", "in/b", "in/[ab]/*"]])
+def test_models_keep_their_names_when_others_come_or_go(places, tmp_path, monkeypatch):
+    """Of an archive with one folder left all had other names: they were done again, and the former results stayed."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("in/a/cow.ply", "in/b/cow.ply"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).touch()
+    assert [source.name for source in find_sources(places, (".ply",), tmp_path / "out")] == ["a/cow.ply", "b/cow.ply"]
+    (tmp_path / "in" / "b" / "cow.ply").unlink()
+    assert [source.name for source in find_sources(places, (".ply",), tmp_path / "out")] == ["a/cow.ply"]
 
 
 def test_what_an_earlier_run_made_is_no_model(batch, models, tmp_path):
