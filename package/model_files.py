@@ -134,6 +134,8 @@ def _check_is_file(path: Path) -> None:
     try:
         kind = kind_of(path)
         check_ends(path)
+    except ModelFileError:
+        raise
     except OSError as error:  # such as a folder that one may not enter
         raise _unreadable(path, error.strerror or str(error)) from error
     if stat.S_ISDIR(kind):
