@@ -129,7 +129,7 @@ def _joints_at_cuts(site: _Site, bodies: _Bodies, found: BodyJoints, kind: str) 
 
 def _joints_within_parts(site: _Site, bodies: _Bodies) -> list[_Wanted]:
     """What was cut to fit the bed is held by the first piece of its part."""
-    return [_Wanted("FIXED", (some[0], piece), piece.matrix_world.normalized(), site.size)
+    return [_Wanted("FIXED", (some[0], piece), _frame(piece), site.size)
             for some in bodies for piece in some[1:]]
 
 
@@ -140,7 +140,7 @@ def _joints_that_hold_nothing(site: _Site, bodies: _Bodies, overlaps: np.ndarray
     overlaps, pairs : (k, 2) and (j, 2) int64, parts whose hulls overlap, and those that have joints.
     """
     held = {tuple(pair) for pair in pairs.tolist()}
-    return [_Wanted("GENERIC", (one, other), one.matrix_world.normalized(), 0.2 * site.size)
+    return [_Wanted("GENERIC", (one, other), _frame(one), 0.2 * site.size)
             for a, b in overlaps.tolist() if (a, b) not in held for one in bodies[a] for other in bodies[b]]
 
 
@@ -215,6 +215,12 @@ def _place(center: np.ndarray, axis: np.ndarray, hinge: np.ndarray) -> Matrix:
     for column, vector in enumerate((axis, np.cross(hinge, axis), hinge, center)):
         place.col[column][:3] = vector.tolist()
     return place
+
+
+def _frame(piece: bpy.types.Object) -> Matrix:
+    """Where a piece is and how it is turned; not how it is mirrored, which an empty would drop like a body."""
+    place, turn, _ = piece.matrix_world.decompose()
+    return Matrix.LocRotScale(place, turn, None)
 
 
 def _joint(site: _Site, wanted: _Wanted) -> bpy.types.Object:

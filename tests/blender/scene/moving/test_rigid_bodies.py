@@ -106,6 +106,18 @@ def test_a_mirrored_or_sheared_piece_keeps_its_shape_when_it_moves(obj, scale, i
     assert [piece.data.name for piece in pieces] == names
 
 
+def test_joints_of_mirrored_pieces_are_not_mirrored(obj):
+    """Those between pieces of one part, which was cut to fit a bed, stand where one of these does."""
+    obj.scale.x = -1
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(fit_bed=True, bed=(900.0, 900.0, 900.0))
+    bpy.ops.reeb_parts.rigid_bodies()
+    bpy.context.view_layer.update()
+    joints = [item for item in bpy.data.objects if item.rigid_body_constraint]
+    assert "FIXED" in {joint.rigid_body_constraint.type for joint in joints}
+    assert all(joint.matrix_world.determinant() == pytest.approx(1, abs=1e-4) for joint in joints)
+
+
 def test_a_mirrored_piece_is_as_it_was_if_its_body_cannot_be_made(obj, package, monkeypatch):
     module = sys.modules[f"{package}.scene.moving.rigid_bodies"]
     obj.scale.x = -1
