@@ -32,7 +32,7 @@ from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..scene import store, targets
 from ..scene.errors import SceneError, load_core
-from ..scene.graph import graph_objects
+from ..scene.graph import graph_finding
 from ..scene.modes import leave_edit_mode
 from ..scene.moving import armature, hulls
 from ..scene.outputs import uv_map
@@ -228,7 +228,7 @@ def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.
         from .picture import render_parts, view_from
 
         with files.writing(options.picture, file_checks.png) as path:
-            shown = [(obj, graph_objects.find(obj)) for obj in objects]
+            shown = [(obj, graph_finding.find(obj)) for obj in objects]
             render_parts(shown, path, view=view_from(options.picture_turn), size=options.picture_size)
         written["picture"] = readable(options.picture)
     if options.json:

@@ -45,7 +45,7 @@ WORK = {
     "attribute": (("outputs/face_attribute.py", "write"), ("outputs/face_attribute.py", "add")),
     "list": (("outputs/write.py", "_list_parts"),),
     "graph": (("scene/graph/graph_objects.py", "draw_graph"), ("scene/graph/graph_objects.py", "update_parts"),
-              ("scene/graph/graph_objects.py", "remove"), ("scene/graph/graph_objects.py", "set_hidden")),
+              ("scene/graph/graph_removal.py", "remove"), ("scene/graph/graph_objects.py", "set_hidden")),
 }
 
 

@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import store, targets
 from ..scene.errors import SceneError
-from ..scene.graph import graph_objects
+from ..scene.graph import graph_finding
 from ..scene.modes import object_mode
 from ..scene.ours import orphan_outputs
 from ..scene.reporting import ReportingOperator
@@ -29,7 +29,7 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     def check_context(cls, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
         if obj is None or obj.type != "MESH" or not (
-                store.has_result(obj.data) or graph_objects.exists(obj) or orphan_outputs.may_be(obj.data)):
+                store.has_result(obj.data) or graph_finding.exists(obj) or orphan_outputs.may_be(obj.data)):
             raise SceneError(rpt_("The active object has no parts"))
 
     def run(self, context: bpy.types.Context) -> None:

@@ -8,8 +8,8 @@ from mathutils import Vector
 from ..scene import property_updates, store, targets, transaction
 from ..scene.changes import edits, moved, reactions
 from ..scene.errors import SceneError
-from ..scene.graph import graph_objects
-from ..scene.graph.graph_objects import part_of, source_of_arcs
+from ..scene.graph import graph_finding, graph_objects
+from ..scene.graph.graph_finding import part_of, source_of_arcs
 from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
 from ..scene.result import part_names
@@ -29,7 +29,7 @@ class REEB_PARTS_OT_show_graph(ReportingOperator, bpy.types.Operator):
 
         def look(obj: bpy.types.Object) -> None:
             # What is drawn already can be hidden and shown also after an edit, when it may be in the way.
-            if shown and graph_objects.find(obj) is None:
+            if shown and graph_finding.find(obj) is None:
                 with object_mode(context):
                     moved.load(obj.data)
 
@@ -125,7 +125,7 @@ class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
         assert obj is not None  # check_parts has looked
         if obj.mode != "OBJECT":
             raise SceneError(rpt_("Go to Object Mode first"))
-        if not graph_objects.exists(obj):
+        if not graph_finding.exists(obj):
             raise SceneError(rpt_("The active object shows no graph"))
 
     def run(self, context: bpy.types.Context) -> None:

@@ -11,7 +11,7 @@ from mathutils import Matrix
 
 from ..core.sentence import Count
 from ..scene import modes, store, targets
-from ..scene.graph import graph_objects
+from ..scene.graph import graph_finding, graph_objects
 from ..scene.pieces import piece_objects
 from ..scene.result import notes, part_list, part_names
 from ..scene.runs import jobs
@@ -123,7 +123,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
         result = _result(context)
         room = Room(context)
         _draw_decompose(layout, room, result is not None)
-        found = graph_objects.part_of(context.object) if result is None else None
+        found = graph_finding.part_of(context.object) if result is None else None
         if found is not None:
             source, number = found
             text = iface_("{part} of {name}").format(part=part_names.part_name(source.data, number), name=source.name)

@@ -7,7 +7,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..scene import handlers
-from ..scene.graph import graph_objects
+from ..scene.graph import graph_finding
 from ..scene.result.part_list import choose
 
 _owner = object()
@@ -16,12 +16,12 @@ _owner = object()
 def _follow_active() -> None:
     """The active object changed: if it belongs to a graph, the list of its object follows."""
     item = bpy.context.view_layer.objects.active if bpy.context.view_layer else None
-    found = graph_objects.part_of(item)
+    found = graph_finding.part_of(item)
     if item is None or not item.select_get():
         return
     if found is not None and found[0].data.is_editable:
         choose(found[0].data, [found[1]])
-    elif graph_objects.source_of_arcs(item) is not None and not bpy.app.background:
+    elif graph_finding.source_of_arcs(item) is not None and not bpy.app.background:
         # Not within Blender's own click, which has yet to become a step of undo.
         bpy.app.timers.register(_ask_pointer, first_interval=0.0)
 

@@ -16,7 +16,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..scene import store
-from ..scene.graph import graph_follow, graph_objects
+from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.ours import made_objects
 from ..scene.result import part_names
 from .graph_lines import GraphLines
@@ -98,7 +98,7 @@ def draw() -> None:
     layer = context.view_layer
     seen = set()
     for collection in bpy.data.collections:
-        source = collection.get(graph_objects.SOURCE)
+        source = collection.get(graph_finding.SOURCE)
         if source is None or source.type != "MESH" or not store.has_result(source.data):
             continue
         items = [item for item in collection.objects if item.name in layer.objects and item.visible_get()]

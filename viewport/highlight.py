@@ -18,7 +18,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.steps import Steps
 from ..scene import bridge, store
 from ..scene.errors import SceneError
-from ..scene.graph import graph_objects
+from ..scene.graph import graph_finding, graph_objects
 from ..scene.pieces import cut_curves
 from ..scene.reading import mesh_arrays
 from ..scene.reading.seen_points import seen_points, version
@@ -165,7 +165,7 @@ def _chosen(active: bpy.types.Object | None) -> bpy.types.Object | None:
     """The selected object that is worked on, or that a selected node of a graph belongs to; in Object Mode."""
     if active is None or not active.select_get():
         return None
-    of_node = graph_objects.part_of(active)  # a node that is selected lights its part
+    of_node = graph_finding.part_of(active)  # a node that is selected lights its part
     obj = of_node[0] if of_node else active
     return obj if obj.type == "MESH" and obj.mode == "OBJECT" else None
 

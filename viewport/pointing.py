@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..scene import store
 from ..scene.errors import SceneError
-from ..scene.graph import graph_follow, graph_objects
+from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.reading import mesh_arrays
 from .graph_lines import GraphLines, nearest
 
@@ -123,7 +123,7 @@ class Model:
 
     def _graph_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
                      mouse: tuple[float, float]) -> Target | None:
-        arcs = graph_objects.arcs(obj)
+        arcs = graph_finding.arcs(obj)
         if arcs is None or not arcs.visible_get():
             return None
         _, places = graph_follow.places(obj)

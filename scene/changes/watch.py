@@ -15,7 +15,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import handlers, redraw, store, transaction
-from ..graph import graph_follow, graph_objects, graph_visibility
+from ..graph import graph_finding, graph_follow, graph_removal, graph_visibility
 from ..pieces import origins, piece_objects
 from ..reading import fingerprints, seen_points
 from ..temporary import removed
@@ -92,7 +92,7 @@ def _opened(*_: object) -> None:
     graph_visibility.forget()
     seen_points.forget()
     for collection in bpy.data.collections:
-        source = collection.get(graph_objects.SOURCE)
+        source = collection.get(graph_finding.SOURCE)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
             graph_follow.soon(source)
 
@@ -110,7 +110,7 @@ def _look() -> float | None:
 
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
-    return (any(graph_objects.left_behind()) or any(origins.left_behind())
+    return (any(graph_finding.left_behind()) or any(origins.left_behind())
             or bool(piece_objects.hidden_for_nothing(bpy.context)))
 
 
@@ -136,8 +136,8 @@ def _hide_graphs() -> None:
 def _tidy() -> None:
     """Remove the graphs of objects that were deleted; their pieces stay. Show objects whose pieces were deleted."""
     with transaction.transaction():
-        for obj in list(graph_objects.left_behind()):
-            graph_objects.remove(obj)
+        for obj in list(graph_finding.left_behind()):
+            graph_removal.remove(obj)
         for collection in list(origins.left_behind()):
             origins.forget_original(collection)
         for obj in piece_objects.hidden_for_nothing(bpy.context):

@@ -18,7 +18,7 @@ from .. import bridge, redraw, store
 from ..errors import SceneError
 from ..reading import mesh_arrays
 from ..reading.seen_points import seen_corners
-from . import arc_curves, graph_objects
+from . import arc_curves, graph_finding, graph_objects
 
 _RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is
 
@@ -69,7 +69,7 @@ def _follow_waiting() -> float | None:
 def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Move the graph of an object that has parts to where its shape is seen; not in Edit Mode."""
     global _count
-    collection = graph_objects.find(obj)
+    collection = graph_finding.find(obj)
     if collection is None or not obj.is_editable:
         _places.pop(obj.session_uid, None)
         return

@@ -2,12 +2,12 @@
 """The Reeb graph as objects: an empty for each node and one curve for the arcs, in a collection of ours.
 
 The objects are children of the decomposed one and live in its coordinates, so that moving and scaling it
-carries them along. They are recognized by custom properties, never by name.
+carries them along.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Iterable, Iterator
+from collections.abc import Container, Iterable
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -23,20 +23,15 @@ from ...core.uses.graph_folding import unfolded
 from .. import bridge, store, transaction
 from ..ours import made_objects
 from ..ours.made_objects import ROLE
-from ..reading import mesh_arrays, placing
+from ..reading import mesh_arrays
 from ..result import part_names
 from ..showing import visibility
 from ..showing.selection import in_layer
-from ..temporary import remove_object
-from . import arc_curves
+from . import arc_curves, graph_finding, graph_removal
 
-SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
-SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 _GRAPH_OF = "Reeb Graph "  # how its name begins
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
-_ARCS = "arcs"  # the role of the curve
-_TYPES = {"node": "EMPTY", _ARCS: "CURVE"}  # of the objects that have the roles
 _STRETCHES = "stretches"  # on the curve: what its splines are, see ``arc_curves.seen_stretches``
 FOLDED = "folded"  # on a node: the parts that are shown do not need it
 _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and when it is
@@ -46,59 +41,6 @@ _LOCKS = ("lock_location", "lock_rotation", "lock_scale")
 # so many marks wide. Of 31 labeled models, at the usual detail, these are four clothed men with hair and belts of
 # their own; with all nodes shown, as before, it would be fifteen.
 CROWDED, MARKS_WIDE = 0.35, 45
-
-
-def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
-    """The graph's collection of an object, or None."""
-    return next((collection for collection in bpy.data.collections if collection.get(SOURCE) == obj), None)
-
-
-def left_behind() -> Iterator[bpy.types.Object]:
-    """Objects that have a graph and are in no scene any more."""
-    sources = (collection.get(SOURCE) for collection in bpy.data.collections if collection.library is None)
-    return (source for source in sources if source is not None and not source.users_scene)
-
-
-def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
-    """The curve with the arcs of an object's graph, or None."""
-    return next(_items(obj, _ARCS), None)
-
-
-def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
-    """The objects of an object's graph that have a role, "node" or "arcs"; none if there is no graph."""
-    collection = find(obj)
-    every = [*(_inside(collection) if collection else ()), *_elsewhere(obj)]
-    return (item for item in _originals(every) if item[ROLE] == role)
-
-
-def _inside(collection: bpy.types.Collection) -> list[bpy.types.Object]:
-    """The objects of a graph that lie in its collection, not those of a copy of the model that was made with them."""
-    source = collection[SOURCE]
-    return [item for item in collection.objects if ROLE in item and not transaction.is_discarded(item)
-            and (item.parent == source or not store.has_parts(item.parent))]
-
-
-def _originals(items: Iterable[bpy.types.Object]) -> Iterator[bpy.types.Object]:
-    """Those of some objects of a graph that we made; what the user has copied or converted since is the user's."""
-    known = set()
-    for item in items:
-        kind = item[ROLE], item.get("node")
-        if item.type == _TYPES.get(item[ROLE]) and kind not in known:
-            known.add(kind)
-            yield item
-
-
-def _elsewhere(obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """The objects of an object's graph that the user has moved to another collection, or whose own was deleted."""
-    collection = find(obj)
-    inside = set(collection.objects) if collection else set()
-    return [item for item in obj.children if item.get(ROLE) in ("node", _ARCS) and item not in inside
-            and not transaction.is_discarded(item)]
-
-
-def exists(obj: bpy.types.Object) -> bool:
-    """Whether an object has a graph, or something of one."""
-    return find(obj) is not None or bool(_elsewhere(obj))
 
 
 def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
@@ -112,7 +54,7 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
         for item in _elsewhere_in_layer(view_layer, obj):
             transaction.on_failure(partial(item.hide_set, item.hide_get(view_layer=view_layer), view_layer=view_layer))
             item.hide_set(hidden, view_layer=view_layer)
-    collection = find(obj)
+    collection = graph_finding.find(obj)
     if collection is None:
         return False
     if not hidden:
@@ -126,13 +68,13 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
 def is_shown(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether an object has a graph that is not hidden in the view layer, nor left out of it."""
     return (any(not (layer.hide_viewport or layer.exclude or layer.collection.hide_viewport)
-                for layer in visibility.layers_of(context.view_layer, find(obj)))
+                for layer in visibility.layers_of(context.view_layer, graph_finding.find(obj)))
             or any(item.visible_get() for item in _elsewhere_in_layer(context.view_layer, obj)))
 
 
 def _elsewhere_in_layer(view_layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """Those objects of ``_elsewhere`` that a view layer has."""
-    return [item for item in _elsewhere(obj) if in_layer(view_layer, item)]
+    """Those objects of ``graph_finding.elsewhere`` that a view layer has."""
+    return [item for item in graph_finding.elsewhere(obj) if in_layer(view_layer, item)]
 
 
 def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, style: Any) -> int:
@@ -155,12 +97,12 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     graph = numbered.parts.decomposition.graph
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
     kinds = [KINDS[kind] for kind in graph.node_kind.tolist()]
-    coming = [*map(_name_of_node, numbers, kinds), _ARCS]
+    coming = [*map(graph_finding.name_of_node, numbers, kinds), graph_finding.ARCS]
     back = bridge.unstretch(store.stretch_of(obj.data)).T
-    before = arcs(obj)
+    before = graph_finding.arcs(obj)
     name = before.data.name if before is not None else arc_curves.NAME
     curve = arc_curves.curve(graph, back, arc_curves.whole(graph, range(graph.n_arcs)), before and before.data)
-    earlier = _remove(obj, coming)
+    earlier = graph_removal.remove_earlier(obj, coming)
     curve.name = name
     collection = _make_collection(context, obj)
     nodes = graph.node_position @ back
@@ -171,36 +113,27 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
         empty.location = position
         empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), numbers[index]
         empty["node"], empty[FOLDED] = index, False
-        _place(empty, "node", obj, collection)
-    _place(bpy.data.objects.new(arc_curves.NAME, curve), _ARCS, obj, collection)
+        _place(empty, graph_finding.NODE, obj, collection)
+    _place(bpy.data.objects.new(arc_curves.NAME, curve), graph_finding.ARCS, obj, collection)
     restyle(obj, style)
-    made_objects.hand_on(earlier.gone, [(_stands_for(item), item) for item in _inside(collection)])
+    made_objects.hand_on(
+        earlier.gone, [(graph_finding.stands_for(item), item) for item in graph_finding.inside(collection)])
     update_parts(obj, numbered)
     return earlier.kept
 
 
 def _make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
     """The collection for a new graph of an object: that of the one before, where the user has it, or a new one."""
-    collection, name = find(obj), _GRAPH_OF + obj.name
+    collection, name = graph_finding.find(obj), _GRAPH_OF + obj.name
     if collection is None:
         collection = bpy.data.collections.new(name)
-        collection[SOURCE] = obj
+        collection[graph_finding.SOURCE] = obj
         collection.hide_render = True
     elif collection.name.startswith(_GRAPH_OF) and part_names.without_number(collection.name) != name:
         transaction.keep(collection, "name")
         collection.name = name  # the object was renamed
     visibility.include(context, collection)
     return collection
-
-
-def _name_of_node(number: int, kind: str) -> str:
-    """What a node stands for: a part and what it is in it."""
-    return f"{number} {kind}"
-
-
-def _stands_for(item: bpy.types.Object) -> str:
-    """See made_objects.StandsFor."""
-    return _ARCS if item[ROLE] == _ARCS else _name_of_node(item.get("part"), item.get("kind"))
 
 
 def _place(item: bpy.types.Object, role: str, obj: bpy.types.Object, collection: bpy.types.Collection) -> None:
@@ -226,7 +159,7 @@ def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.nd
 
     back : as of ``arc_curves.places``, where the graph is. seen : (k + r, 3) float64, where it is to be seen.
     """
-    nodes, item = list(_items(obj, "node")), arcs(obj)
+    nodes, item = list(graph_finding.nodes(obj)), graph_finding.arcs(obj)
     if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
         return False
     offset = (seen - arc_curves.places(graph, back)).astype(np.float32)
@@ -246,7 +179,7 @@ def put_back(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, scale: f
 
     back : as of ``arc_curves.places``. scale : how much larger the mesh has become.
     """
-    nodes, item, points = list(_items(obj, "node")), arcs(obj), arc_curves.places(graph, back)
+    nodes, item, points = list(graph_finding.nodes(obj)), graph_finding.arcs(obj), arc_curves.places(graph, back)
     if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
         return
     for node in nodes:
@@ -284,13 +217,13 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
 
     A graph of another result, as of a mesh that was replaced, goes.
     """
-    nodes = list(_items(obj, "node"))
+    nodes = list(graph_finding.nodes(obj))
     if not nodes:
         return
     parts = numbered.parts
     numbers = numbered.numbers[parts.node_part].tolist()
     if not all(0 <= node.get("node", -1) < len(numbers) for node in nodes):
-        remove(obj)
+        graph_removal.remove(obj)
         return
     graph = parts.decomposition.graph
     shown, arcs_shown = unfolded(graph, parts.node_part, parts.point_part)
@@ -332,7 +265,7 @@ def is_folded(node: bpy.types.Object) -> bool:
 
 def _show_arcs(obj: bpy.types.Object, graph: ReebGraph, stretches: np.ndarray) -> None:
     """Let the curve have some stretches of the arcs, (s, 3) int64: see ``arc_curves.seen_stretches``."""
-    item = arcs(obj)
+    item = graph_finding.arcs(obj)
     if item is None or np.array_equal(_drawn(item, graph), stretches):
         return
     transaction.keep_keys(item, _STRETCHES)
@@ -354,7 +287,7 @@ def _draw_curve(item: bpy.types.Object, graph: ReebGraph, back: np.ndarray, stre
 
 def update_names(obj: bpy.types.Object) -> None:
     """Name each node by its part and its kind: "head tip"."""
-    nodes = list(_items(obj, "node"))
+    nodes = list(graph_finding.nodes(obj))
     names = {part.number: part.name for part in obj.data.reeb_parts.parts}
     wanted = [f"{names.get(node['part'], '')} {_WORDS.get(node['kind'], node['kind'])}".strip() for node in nodes]
     changed = [(node, name) for node, name in zip(nodes, wanted, strict=True)
@@ -385,102 +318,27 @@ def is_crowded(graph: ReebGraph, shown: np.ndarray) -> bool:
 
 def restyle(obj: bpy.types.Object | None, style: Any) -> None:
     """Draw an object's graph in another size or thickness."""
-    collection = find(obj) if obj is not None else None
+    collection = graph_finding.find(obj) if obj is not None else None
     if obj is None or collection is None:
         return
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
-    for item in _originals(_inside(collection)):
+    for item in graph_finding.originals(graph_finding.inside(collection)):
         transaction.keep(item, "empty_display_size", "show_in_front")
-        if item.get(ROLE) == "node":
+        if item.get(ROLE) == graph_finding.NODE:
             if is_folded(item):
                 transaction.keep_keys(item, _SIZE)
                 item[_SIZE] = size
             else:
                 item.empty_display_size = size
             item.show_in_front = style.in_front
-        elif item.get(ROLE) == _ARCS:
+        elif item.get(ROLE) == graph_finding.ARCS:
             transaction.keep(item.data, "bevel_depth")
             item.data.bevel_depth = style.line_thickness
             item.show_in_front = style.in_front
 
 
-def remove(obj: bpy.types.Object) -> None:
-    """Remove the graph of an object, and those of objects that are gone."""
-    _remove(obj, None)
-
-
-def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made_objects.Earlier:
-    """What ``remove`` does.
-
-    coming : what the nodes of a new graph stand for, see made_objects.needed; None without one.
-    """
-    own = find(obj)
-    earlier = _remove_items([*(_inside(own) if own else ()), *_elsewhere(obj)], coming)
-    for collection in [each for each in bpy.data.collections if SOURCE in each and each[SOURCE] in (obj, None)]:
-        if collection == own and coming is not None:  # the new graph lies there
-            made_objects.hand_over(collection, SHOWN_BEFORE)
-            continue
-        if collection != own:
-            _remove_items(_inside(collection), None)
-        made_objects.hand_over(collection, SOURCE, SHOWN_BEFORE)
-        # Else it is the user's now, who put something in it.
-        if all(map(transaction.is_discarded, collection.all_objects)) and not len(collection.children):
-            transaction.discard(collection)
-    return earlier
-
-
-def _remove_items(items: list[bpy.types.Object], coming: Collection[str] | None) -> made_objects.Earlier:
-    """Remove objects of a graph; those that others need, or that are copies, are the user's from now on.
-
-    coming : as of ``_remove``.
-    """
-    ours = list(_originals(items))
-    needed = made_objects.needed(ours, _stands_for, coming) if coming is not None else set()
-    going = [item for item in ours if item not in needed]
-    for item in set(items) - set(going):
-        made_objects.hand_over(item, ROLE)
-    gone = [(_stands_for(item), item) for item in going]
-    if coming is None:
-        _leave_children(going)
-    for item in going:
-        remove_object(item)
-    return made_objects.Earlier(gone, len(items) - len(going))
-
-
-def _leave_children(going: list[bpy.types.Object]) -> None:
-    """Have what the user has made children of objects that go be children of these objects' parents, where it is."""
-    for child in bpy.data.objects:
-        former = child.parent
-        if former not in going or child in going or child.parent_type != "OBJECT" or not child.is_editable:
-            continue
-        parent = former.parent if former.parent is not None and former.parent.users_scene else None
-        place = placing.world_matrix(former) @ child.matrix_parent_inverse
-        transaction.on_failure(setattr, child, "matrix_parent_inverse", child.matrix_parent_inverse.copy())
-        transaction.keep(child, "parent")
-        child.parent = parent
-        if parent is not None:
-            child.matrix_parent_inverse = placing.world_matrix(parent).inverted_safe() @ place
-        else:
-            transaction.on_failure(setattr, child, "matrix_basis", child.matrix_basis.copy())
-            child.matrix_basis = place @ child.matrix_basis
-
-
-def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
-    """The decomposed object and the part's number that an object of a graph stands for, or None."""
-    if item is None or item.get(ROLE) != "node" or not store.has_parts(item.parent):
-        return None
-    return item.parent, item["part"]
-
-
-def source_of_arcs(item: bpy.types.Object | None) -> bpy.types.Object | None:
-    """The decomposed object that a curve of arcs stands for, or None."""
-    if item is None or item.get(ROLE) != _ARCS or not store.has_parts(item.parent):
-        return None
-    return item.parent
-
-
 def select_nodes(obj: bpy.types.Object, numbers: Container[int]) -> None:
     """Select the nodes of some parts that are shown, and no other node."""
-    for node in _items(obj, "node"):
+    for node in graph_finding.nodes(obj):
         node.select_set(node["part"] in numbers and not is_folded(node))

@@ -15,8 +15,8 @@ import bpy
 from .. import transaction
 from ..ours.made_objects import ROLE
 from ..showing.selection import in_layer
-from . import graph_objects
-from .graph_objects import SHOWN_BEFORE
+from . import graph_finding, graph_objects
+from .graph_finding import SHOWN_BEFORE
 
 _along: set[tuple[int, int]] = set()  # viewports, by address, and objects of graphs, by session_uid, that came along
 
@@ -63,7 +63,7 @@ def _leave(context: bpy.types.Context, gone: set[tuple[int, int]]) -> None:
 
 def hide(context: bpy.types.Context, source: bpy.types.Object) -> None:
     """Hide the graph of a model that is hidden, and remember whether it was seen."""
-    graph = graph_objects.find(source)
+    graph = graph_finding.find(source)
     if graph is not None and SHOWN_BEFORE not in graph:
         transaction.keep_keys(graph, SHOWN_BEFORE)
         graph[SHOWN_BEFORE] = int(graph_objects.is_shown(context, source))
@@ -72,7 +72,7 @@ def hide(context: bpy.types.Context, source: bpy.types.Object) -> None:
 
 def show(context: bpy.types.Context, source: bpy.types.Object) -> None:
     """Show the graph of a model that is shown again, if it was seen before and the scene shows graphs."""
-    graph = graph_objects.find(source)
+    graph = graph_finding.find(source)
     if graph is not None and SHOWN_BEFORE in graph:
         transaction.keep_keys(graph, SHOWN_BEFORE)
         if graph.pop(SHOWN_BEFORE) and context.scene.reeb_parts.graph:
@@ -112,7 +112,7 @@ def _local_views(context: bpy.types.Context) -> Iterator[tuple[bpy.types.ViewLay
 def _graphs() -> Iterator[tuple[bpy.types.Collection, bpy.types.Object]]:
     """The graphs that can be written, each with its model."""
     return ((graph, source) for graph in bpy.data.collections
-            if graph.library is None and (source := graph.get(graph_objects.SOURCE)) is not None)
+            if graph.library is None and (source := graph.get(graph_finding.SOURCE)) is not None)
 
 
 def _is_seen(context: bpy.types.Context, source: bpy.types.Object) -> bool:

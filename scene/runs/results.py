@@ -14,7 +14,7 @@ from ...core.steps import Steps, finished
 from ...core.uses.graph_folding import unfolded
 from .. import bridge, outputs, property_updates, store, targets, transaction
 from ..errors import SceneError
-from ..graph import graph_objects
+from ..graph import graph_finding, graph_objects, graph_removal
 from ..moving import armature
 from ..ours import orphan_outputs
 from ..outputs import uv_map
@@ -98,10 +98,10 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
     for user in targets.users(mesh):
         explode.settle(user)
-        if settings.graph and (user == obj or graph_objects.exists(user)):
+        if settings.graph and (user == obj or graph_finding.exists(user)):
             kept += draw_graph(context, user, numbered, settings)
         else:
-            graph_objects.remove(user)
+            graph_removal.remove(user)
     return kept
 
 
@@ -142,7 +142,7 @@ def clear(obj: bpy.types.Object) -> Left:
     for user in targets.users(obj.data):
         explode.forget(user)
         hidden.forget(user)
-        graph_objects.remove(user)
+        graph_removal.remove(user)
     hidden.forget_faces(obj.data)
     weights_stay = armature.clear(obj.data)
     map_that_stays = uv_map.remove(obj.data)

@@ -256,11 +256,11 @@ def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, se
 
 def test_a_graph_goes_with_its_model(package, obj, settings):
     watch = importlib.import_module(f"{package}.scene.changes.watch")
-    graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
-    assert list(graph_objects.left_behind()) == []
+    graph_finding = importlib.import_module(f"{package}.scene.graph.graph_finding")
+    assert list(graph_finding.left_behind()) == []
     activate(obj)
     bpy.ops.object.delete()
-    assert list(graph_objects.left_behind()) == [obj]
+    assert list(graph_finding.left_behind()) == [obj]
     watch._tidy()  # as a timer does
     assert "Reeb Graph Tree" not in bpy.data.collections
     assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []

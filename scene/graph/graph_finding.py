@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects are those of a model's graph: what we made, not what the user has copied or converted since.
+
+They are recognized by custom properties, never by name, in the graph's own collection and wherever the user has them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import bpy
+
+from .. import store, transaction
+from ..ours.made_objects import ROLE
+
+SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
+SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
+NODE, ARCS = "node", "arcs"  # roles: of the empties, and of the curve
+_TYPES = {NODE: "EMPTY", ARCS: "CURVE"}
+
+
+def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
+    """The graph's collection of an object, or None."""
+    return next((collection for collection in bpy.data.collections if collection.get(SOURCE) == obj), None)
+
+
+def left_behind() -> Iterator[bpy.types.Object]:
+    """Objects that have a graph and are in no scene any more."""
+    sources = (collection.get(SOURCE) for collection in bpy.data.collections if collection.library is None)
+    return (source for source in sources if source is not None and not source.users_scene)
+
+
+def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
+    """The curve with the arcs of an object's graph, or None."""
+    return next(_items(obj, ARCS), None)
+
+
+def nodes(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """The empties of an object's graph; none if there is no graph."""
+    return _items(obj, NODE)
+
+
+def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
+    """The objects of an object's graph that have a role; none if there is no graph."""
+    collection = find(obj)
+    every = [*(inside(collection) if collection else ()), *elsewhere(obj)]
+    return (item for item in originals(every) if item[ROLE] == role)
+
+
+def inside(collection: bpy.types.Collection) -> list[bpy.types.Object]:
+    """The objects of a graph that lie in its collection, not those of a copy of the model that was made with them."""
+    source = collection[SOURCE]
+    return [item for item in collection.objects if ROLE in item and not transaction.is_discarded(item)
+            and (item.parent == source or not store.has_parts(item.parent))]
+
+
+def originals(items: Iterable[bpy.types.Object]) -> Iterator[bpy.types.Object]:
+    """Those of some objects of a graph that we made; what the user has copied or converted since is the user's."""
+    known = set()
+    for item in items:
+        kind = str(item[ROLE]), str(item.get("node"))  # whatever a file has there
+        if item.type == _TYPES.get(kind[0]) and kind not in known:
+            known.add(kind)
+            yield item
+
+
+def elsewhere(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """The objects of an object's graph that the user has moved to another collection, or whose own was deleted."""
+    collection = find(obj)
+    there = set(collection.objects) if collection else set()
+    return [item for item in obj.children if item.get(ROLE) in (NODE, ARCS) and item not in there
+            and not transaction.is_discarded(item)]
+
+
+def exists(obj: bpy.types.Object) -> bool:
+    """Whether an object has a graph, or something of one."""
+    return find(obj) is not None or bool(elsewhere(obj))
+
+
+def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
+    """The decomposed object and the part's number that an object of a graph stands for, or None."""
+    if item is None or item.get(ROLE) != NODE or not store.has_parts(item.parent):
+        return None
+    return item.parent, item["part"]
+
+
+def source_of_arcs(item: bpy.types.Object | None) -> bpy.types.Object | None:
+    """The decomposed object that a curve of arcs stands for, or None."""
+    if item is None or item.get(ROLE) != ARCS or not store.has_parts(item.parent):
+        return None
+    return item.parent
+
+
+def name_of_node(number: int, kind: str) -> str:
+    """What a node stands for: a part and what it is in it."""
+    return f"{number} {kind}"
+
+
+def stands_for(item: bpy.types.Object) -> str:
+    """See made_objects.StandsFor."""
+    return ARCS if item[ROLE] == ARCS else name_of_node(item.get("part"), item.get("kind"))
