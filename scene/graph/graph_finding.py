@@ -42,9 +42,13 @@ def nodes(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
 
 def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
     """The objects of an object's graph that have a role; none if there is no graph."""
+    return (item for item in originals(wherever(obj)) if item[ROLE] == role)
+
+
+def wherever(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """The objects of an object's graph, in its collection and elsewhere, with what the user has copied or converted."""
     collection = find(obj)
-    every = [*(inside(collection) if collection else ()), *elsewhere(obj)]
-    return (item for item in originals(every) if item[ROLE] == role)
+    return [*(inside(collection) if collection else ()), *elsewhere(obj)]
 
 
 def inside(collection: bpy.types.Collection) -> list[bpy.types.Object]:

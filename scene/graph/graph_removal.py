@@ -27,7 +27,7 @@ def remove_earlier(obj: bpy.types.Object, coming: Collection[str] | None) -> mad
     coming : what the nodes of a new graph stand for, see made_objects.needed; None without one.
     """
     own = graph_finding.find(obj)
-    earlier = _remove_items([*(graph_finding.inside(own) if own else ()), *graph_finding.elsewhere(obj)], coming)
+    earlier = _remove_items(graph_finding.wherever(obj), coming)
     for collection in [each for each in bpy.data.collections if each.get(SOURCE, each) in (obj, None)]:
         if collection == own and coming is not None:  # the new graph lies there
             made_objects.hand_over(collection, SHOWN_BEFORE)
