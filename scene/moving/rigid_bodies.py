@@ -13,7 +13,7 @@ from mathutils import Matrix, Vector
 
 from .. import transaction
 from ..ours import made_objects
-from ..pieces import origins
+from ..pieces import mesh_replacement, origins
 from ..reading import mesh_arrays, placing
 from ..result import part_names
 from ..store import Stored
@@ -167,19 +167,16 @@ def _stand_upright(piece: bpy.types.Object) -> None:
     # Modifiers such as Mirror act along the axes of the mesh, of which a shear leaves none as it was.
     if placing.is_alike(upright, world) or piece.constraints or (is_sheared and piece.modifiers):
         return
-    moved, former = upright.inverted_safe() @ world, piece.data
-    name, mesh = former.name, former.copy()
+    moved, mesh = upright.inverted_safe() @ world, piece.data.copy()
     placing.move(mesh, moved)
-    transaction.keep(piece, "data", "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+    mesh_replacement.replace(piece, mesh)
+    transaction.keep(piece, "location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
     for item in (piece, *piece.children):
         transaction.on_failure(setattr, item, "matrix_parent_inverse", item.matrix_parent_inverse.copy())
     for child in piece.children:
         child.matrix_parent_inverse = moved @ child.matrix_parent_inverse
     piece.matrix_parent_inverse = piece.matrix_parent_inverse @ piece.matrix_basis @ world.inverted_safe()
-    piece.data, piece.matrix_basis = mesh, upright
-    if not former.users:
-        transaction.discard(former)
-        mesh.name = name
+    piece.matrix_basis = upright
 
 
 def _add_body(physics: bpy.types.RigidBodyWorld, piece: bpy.types.Object, mass: float) -> None:

@@ -11,6 +11,7 @@
 Their meshes:
 
 - ``part_meshes``: makes them
+- ``mesh_replacement``: puts another in place of one
 - ``sculpted_pieces``: makes those of a mesh with Multires
 - ``by_extent``: modifiers that work by the extent of the whole mesh, and would shape a piece otherwise
 - ``welding``: joins seams before

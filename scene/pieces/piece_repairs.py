@@ -14,7 +14,7 @@ from ..ours import made_objects
 from ..ours.surroundings import Surroundings
 from ..reading import mesh_arrays, mesh_groups
 from ..reading.matrix_layers import as_bmesh
-from . import piece_checks, piece_objects
+from . import mesh_replacement, piece_checks, piece_objects
 from .closing import cap_looks, caps
 from .piece_checks import Check
 
@@ -50,24 +50,12 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
             bpy.data.meshes.remove(candidate)
     if mesh != old:
         ours = made_objects.is_as_made(piece, piece_objects.former_looks, Surroundings.now())
-        _take_over(piece, old, mesh)
+        mesh_replacement.replace(piece, mesh)
         if ours:
             transaction.keep_keys(piece, made_objects.MADE)
             made_objects.mark([piece])
     piece_checks.keep(piece, found[0])
     return before, found[0]
-
-
-def _take_over(piece: bpy.types.Object, old: bpy.types.Mesh, mesh: bpy.types.Mesh) -> None:
-    """Have a new mesh in place of the one of a piece, for whatever refers to that, and under its name."""
-    transaction.keep(piece, "data")
-    piece.data = mesh
-    mesh.use_fake_user = old.use_fake_user
-    names = [(new, former.name) for new, former in ((mesh, old), (mesh.shape_keys, old.shape_keys)) if former]
-    transaction.at_end(old.user_remap, mesh)
-    transaction.discard(old)
-    for new, name in names:
-        new.name = name
 
 
 def _faults(found: Check) -> int:

@@ -106,6 +106,31 @@ def test_a_mirrored_or_sheared_piece_keeps_its_shape_when_it_moves(obj, scale, i
     assert [piece.data.name for piece in pieces] == names
 
 
+def test_what_refers_to_the_mesh_of_a_mirrored_piece_refers_to_its_body(obj):
+    """A fake user, or a property, was taken for another object that shares the mesh, which stayed as a second one."""
+    obj.scale.x = -1
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Fat")
+    piece, other, *_ = separated(obj)
+    piece.data.use_fake_user, piece.data.name, piece.data.shape_keys.name = True, "Mine", "My keys"
+    bpy.context.scene["mine"] = piece.data
+    double = bpy.data.objects.new("Double", other.data)
+    bpy.context.scene.collection.objects.link(double)
+    former, shared, shape, n_meshes = piece.data.session_uid, other.data, read_points(other.data), len(bpy.data.meshes)
+    bpy.ops.reeb_parts.rigid_bodies()
+    assert piece.data.session_uid != former
+    assert bpy.context.scene["mine"] == piece.data
+    assert (piece.data.name, piece.data.shape_keys.name) == ("Mine", "My keys")
+    assert piece.data.use_fake_user
+    assert (double.data, other.data == shared) == (shared, False)  # which is of two objects, and stands as it was
+    assert np.array_equal(read_points(shared), shape)
+    assert len(bpy.data.meshes) == n_meshes + 1
+
+
+def read_points(mesh):
+    return np.array([vertex.co for vertex in mesh.vertices])
+
+
 def test_joints_of_mirrored_pieces_are_not_mirrored(obj):
     """Those between pieces of one part, which was cut to fit a bed, stand where one of these does."""
     obj.scale.x = -1
