@@ -21,7 +21,7 @@ from fuzz.blender.faults import Injector, places
 from snapshot import changes, snapshot
 
 #: Of the fixed slice: one of so many places, in each command others.
-STEP = 30
+STEP = 45
 # What "cancel" stops is no data, and what needs a viewport does nothing here.
 COMMANDS = [name for name, case in CASES.items() if name != "cancel" and "OBJECT" not in case.refuses]
 

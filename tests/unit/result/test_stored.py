@@ -175,11 +175,12 @@ def test_a_result_of_another_mesh():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_little_is_read_of_what_is_huge(name):
-    """Zeros pack to a thousandth: 100 MB in 100 kB."""
+    """Zeros pack to next to nothing: 100 MB in 440 kB."""
     kind = np.uint8 if name == "head" else np.int64
     shape = (100_000_000 // np.dtype(kind).itemsize,)
     stream = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(DATA)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
+    with (zipfile.ZipFile(io.BytesIO(DATA)) as old,
+          zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as new):
         for info in old.infolist():
             if info.filename != f"{name}.npy":
                 new.writestr(info.filename, old.read(info))
