@@ -219,6 +219,25 @@ class Hierarchy:
         done = self.merges[: max(self.n_candidates - n_parts, 0)]
         return components(self.n_candidates, *done.T)[1]
 
+    def coarsest(self, n_parts: int) -> tuple[np.ndarray, Hierarchy]:
+        """Merge candidates to a number of parts, and these in the order that follows.
+
+        Parameters
+        ----------
+        n_parts : int
+            Clipped as ``parts`` does.
+
+        Returns
+        -------
+        part : (n_candidates,) int64
+            Part of each candidate, 0..n_parts-1.
+        hierarchy : Hierarchy
+            Of these parts; at ``n_parts`` and fewer its parts are those of this one.
+        """
+        n_parts = min(max(n_parts, self.n_loose), self.n_candidates)
+        part, done = self.parts(n_parts), self.n_candidates - n_parts
+        return part, Hierarchy.of(n_parts, part[self.merges[done:]], self.salience[done:])
+
     @cached_property
     def dendrogram(self) -> Dendrogram:
         """Dendrogram of the merges."""

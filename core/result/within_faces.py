@@ -22,6 +22,10 @@ from ..symmetry.images import Images
 from ..symmetry.mirrors import Mirror
 from .component_results import ComponentResult, FoundCandidates, firsts, merged_at_last
 
+# The finest candidates of several bodies at once are merged down to so many, twice those of one body: what is made
+# symmetric is compared pair by pair, again and again, and these are smaller than the caller's faces.
+MOST_CANDIDATES = 440
+
 
 def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]) -> FoundCandidates:
     """Make the candidates that were found symmetric on the small faces of the components.
@@ -61,6 +65,8 @@ def _symmetric(results: list[ComponentResult], planes: list[Images]) -> FaceCand
     hierarchy = Hierarchy.join([r.candidates.hierarchy for r in results])
     graph = FaceGraph.of(mesh)
     candidates = settle(FaceCandidates(graph, contacts, connect(graph, label), hierarchy))
+    part, hierarchy = candidates.hierarchy.coarsest(MOST_CANDIDATES)
+    candidates = replace(candidates, label=part[candidates.label], hierarchy=hierarchy)
     for images in planes:  # of planes across each other each keeps the symmetry in those before it
         mirror = Mirror.of_faces(images, mesh)
         candidates = replace(candidates, hierarchy=merged_at_last(candidates.hierarchy))

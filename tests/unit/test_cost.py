@@ -64,6 +64,16 @@ def planks(count):
                                           np.delete(board.faces, [8, 9], axis=0)) for k in range(count)))
 
 
+def crosses(count):
+    """Crosses of cards, as of flames and plants, seen from both sides; left and right are images but for a bit."""
+    card = np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], float)
+    sides = [[0, 1, 2], [0, 2, 3], [3, 2, 1], [3, 1, 0]]
+    places = [(4 * side, 0, 4 * k) for k in range(count) for side in ((-1, 1) if k < count - 1 else (0,))]
+    rng = np.random.default_rng(0)
+    return shapes.together(*(shapes.Shape((1 + 0.03 * rng.random()) * card[:, axes] + place + 0.03 * rng.normal(size=3),
+                                          sides) for place in places for axes in ([0, 1, 2], [1, 0, 2])))
+
+
 def lawn(count):
     """Blades of two faces, each near hundreds of others."""
     rng = np.random.default_rng(0)
@@ -135,7 +145,7 @@ ODD = {
     "flat fan": lambda: fan(6_000, 0.3), "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
     "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
-    "lawn": lambda: lawn(2_500), "planks": lambda: planks(7),
+    "lawn": lambda: lawn(2_500), "planks": lambda: planks(7), "crosses": lambda: crosses(5),
     "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
     "crossing triangles": lambda: crossing(1000), "welded triangles": lambda: welded(1000),
     "pages": lambda: pages(1000), "spikes": lambda: spikes(700),

@@ -55,6 +55,18 @@ def test_every_number_of_parts_exactly(hierarchy):
     assert hierarchy.parts(10**6).max() + 1 == hierarchy.n_candidates
 
 
+def test_the_coarsest_candidates_have_all_that_is_coarser(hierarchy):
+    for n in (0, hierarchy.n_loose, 5, hierarchy.n_candidates, 10**6):
+        part, coarse = hierarchy.coarsest(n)
+        assert coarse.n_candidates == min(max(n, hierarchy.n_loose), hierarchy.n_candidates)
+        assert coarse.n_loose == hierarchy.n_loose
+        assert part.tolist() == hierarchy.parts(n).tolist()
+        for fewer in range(hierarchy.n_loose, coarse.n_candidates + 1):
+            assert coarse.parts(fewer)[part].tolist() == hierarchy.parts(fewer).tolist()
+        for detail in np.linspace(0, 1, 11):
+            assert coarse.n_parts(detail) == min(hierarchy.n_parts(detail), coarse.n_candidates)
+
+
 def test_nested(hierarchy):
     for n in range(hierarchy.n_loose, hierarchy.n_candidates):
         coarse, fine = hierarchy.parts(n), hierarchy.parts(n + 1)
