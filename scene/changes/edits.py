@@ -24,7 +24,7 @@ from ...core.mesh.labels import FaceGraph
 from ...core.result.decomposition import Decomposition
 from ...core.result.parts import Parts
 from ...core.sentence import Count
-from .. import bridge, property_updates, store
+from .. import bridge, property_updates, store, transaction
 from ..errors import SceneError
 from ..outputs import face_sets
 from ..reading import mesh_arrays
@@ -271,6 +271,8 @@ def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: 
         after[painted == value] = taken[-1]
     changed = after != before
     check_unlocked(mesh, {*after[changed].tolist(), *before[changed].tolist()})
+    transaction.keep_mesh(mesh)
+    sets.data.foreach_set("value", before.astype(np.int32))  # what was drawn becomes parts: none of it is kept aside
     assign_faces(context, obj, stored, after)
     return int(changed.sum())
 

@@ -9,6 +9,7 @@ import numpy as np
 from ...core.result.numbering import NumberedParts
 from .. import transaction
 from ..reading import mesh_arrays
+from . import face_attribute
 from .kept_aside import PREFIX, add_attribute, find_attribute, keep_aside, remove_attribute, taken_out
 
 NAME = ".sculpt_face_set"
@@ -34,6 +35,7 @@ def remove(obj: bpy.types.Object) -> None:
     """Bring the user's face sets back, or none."""
     transaction.keep_mesh(obj.data)
     mesh = obj.data
+    keep_drawn(mesh)
     result = mesh.reeb_parts
     if result.has_face_sets:
         if result.had_face_sets and _KEPT in mesh.attributes:
@@ -72,11 +74,31 @@ def keep(mesh: bpy.types.Mesh, new: np.ndarray, numbers: np.ndarray) -> None:
     if not _are_ours(mesh) or NAME not in mesh.attributes:
         return
     now = mesh_arrays.read(mesh.attributes[NAME].data, "value", np.int32)
-    new = new & (now != numbers)
+    _keep_aside(mesh, now, new & (now != numbers))
+
+
+def keep_drawn(mesh: bpy.types.Mesh) -> None:
+    """Keep the face sets aside that were drawn over ours since, which the parts, or nothing, will take the place of.
+
+    Where the numbers of the parts are not written as an attribute, nobody knows them.
+    """
+    sets = find_attribute(mesh, NAME, "INT", "FACE") if _are_ours(mesh) else None
+    written = face_attribute.find(mesh) if sets else None
+    if not sets or not written:
+        return
+    numbers, now = (mesh_arrays.read(each.data, "value", np.int32) for each in (written, sets))
+    ours = numbers > 0
+    # Blender's Join adds a number to all of an object, so that no two objects share a face set.
+    if ours.any() and np.ptp((now - numbers)[ours]):
+        _keep_aside(mesh, now, ours & (now != numbers))
+
+
+def _keep_aside(mesh: bpy.types.Mesh, now: np.ndarray, some: np.ndarray) -> None:
+    """Have the face sets of some faces, (p,) bool, come back as they are now, (p,) int32, when ours go."""
     had = mesh.reeb_parts.had_face_sets and _KEPT in mesh.attributes
-    if had or (now[new] > 1).any():
+    if had or (now[some] > 1).any():
         before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32) if had else np.ones_like(now)
-        keep_aside(mesh, np.where(new, now, before), _KEPT, "INT", "FACE")
+        keep_aside(mesh, np.where(some, now, before), _KEPT, "INT", "FACE")
         mesh.reeb_parts.had_face_sets = True
 
 

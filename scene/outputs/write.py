@@ -40,6 +40,7 @@ def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.
         Has the switches of settings.OutputProperties.
     """
     transaction.keep_mesh(obj.data)
+    face_sets.keep_drawn(obj.data)
     vertex_groups.remove(obj)
     for name, output in OUTPUTS.items():
         (output.add if getattr(outputs, name) else output.remove)(obj)
@@ -62,6 +63,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
     mesh = obj.data
     transaction.keep_mesh(mesh)
     materials.keep(mesh)
+    face_sets.keep_drawn(mesh)
     old = part_names.number_colors(mesh)
     gone = _list_parts(mesh, numbered)
     new = part_names.number_colors(mesh)
@@ -100,7 +102,7 @@ def _recolored(numbered: NumberedParts, before: np.ndarray | None, old: np.ndarr
 def remove_outputs(obj: bpy.types.Object) -> None:
     """Take back all that was written to the mesh; the result itself stays."""
     transaction.keep_mesh(obj.data)
-    for output in OUTPUTS.values():
+    for output in reversed(OUTPUTS.values()):  # face sets before the numbers that tell which of them are ours
         output.remove(obj)
     obj.data.update()
 

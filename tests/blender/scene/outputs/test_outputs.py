@@ -7,6 +7,7 @@ import time
 import bpy
 import numpy as np
 import pytest
+from bulk import read
 from snapshot import check_undo, snapshot
 
 OPERATORS = {"seams": "seams", "face_sets": "face_sets", "materials": "materials"}
@@ -124,6 +125,50 @@ def test_what_was_converted_is_not_written_any_more(obj, name, kind, domain):
     assert [(a.data_type, a.domain) for a in found] == [
         ("INT", "FACE"), ("BYTE_COLOR", "CORNER"), ("FLOAT", "POINT")]
     assert snapshot()["meshes"]["Tree"]["attributes"][name] == converted
+
+
+def drawn_sets(mesh, chosen=None, value=90):
+    """The face sets of a mesh, those of some faces drawn anew, as a stroke in Sculpt Mode does."""
+    sets = np.array(read(mesh.attributes[".sculpt_face_set"].data, "value", np.int32))
+    if chosen is not None:
+        sets[chosen] = value
+        mesh.attributes[".sculpt_face_set"].data.foreach_set("value", sets)
+    return sets
+
+
+@pytest.mark.parametrize("mine", [True, False])
+@pytest.mark.parametrize("ends", ["clear", "switched off"])
+def test_what_was_drawn_over_our_face_sets_comes_back_where_it_was_drawn(obj, mine, ends):
+    """The next change of the parts wrote over it, and it was gone."""
+    mesh = obj.data
+    if mine:
+        mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", [7] * len(mesh.polygons))
+    bpy.ops.reeb_parts.decompose(face_sets=True)
+    first, second = slice(100, 150), slice(140, 300)
+    drawn_sets(mesh, first, 90)
+    mesh.reeb_parts.n_parts = 3
+    assert drawn_sets(mesh).max() < 90
+    drawn_sets(mesh, second, 91)
+    mesh.reeb_parts.detail = 0.9
+    bpy.ops.reeb_parts.decompose(face_sets=True, method="liu")
+    last = slice(300, 310)
+    drawn_sets(mesh, last, 92)
+    if ends == "clear":
+        bpy.ops.reeb_parts.clear()
+    else:
+        bpy.ops.reeb_parts.face_sets(remove=True)
+    wanted = np.full(len(mesh.polygons), 7 if mine else 1)
+    wanted[first], wanted[second], wanted[last] = 90, 91, 92
+    assert drawn_sets(mesh).tolist() == wanted.tolist()
+
+
+def test_what_was_drawn_and_made_parts_is_not_kept(obj):
+    bpy.ops.reeb_parts.decompose(face_sets=True)
+    drawn_sets(obj.data, slice(100, 150))
+    bpy.ops.reeb_parts.from_face_sets()
+    obj.data.reeb_parts.n_parts = 3
+    bpy.ops.reeb_parts.clear()
+    assert ".sculpt_face_set" not in obj.data.attributes
 
 
 def test_a_script_may_remove_all_attributes_that_can_be_removed(owned):
