@@ -26,6 +26,7 @@ from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure, write_re
 
 LOOK = 0.5  # seconds between two looks at the memory of the process
 START = 120.0  # seconds that the process may take to import everything, on a busy machine
+LEAST = 2**24  # bytes without which no model can be done
 STARTS = 2  # how often it is started for a model, if it ends before it is ready
 KILLED = "it was killed"  # why it did not start, when the system or somebody ended it
 ENDED: dict[str, Any] = {}  # in place of a message: there will be none any more
@@ -75,8 +76,6 @@ class ModelProcess:
     def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
         """Wait for the answer; what went wrong otherwise and why, two empty words if nothing did."""
         if self._process is None and (why := self._start_surely()):
-            if why != KILLED and self.memory_limit and self._starts_without_limit():  # whatever its words were
-                return MEMORY, self._too_much()
             return self._crash("The process could not start: ", why)
         assert self._process is not None
         assert self._process.stdin is not None
@@ -114,14 +113,6 @@ class ModelProcess:
             why = KILLED if status == -9 else self._last_words()
             self.close()
         return why
-
-    def _starts_without_limit(self) -> bool:
-        """Whether the process would be ready with all the memory there is."""
-        free = ModelProcess()
-        try:
-            return not free._start_surely()
-        finally:
-            free.close()
 
     def _start(self) -> bool:
         """Start the process; whether it is ready."""
@@ -222,10 +213,11 @@ def main(memory_limit: int) -> None:
     os.dup2(2, 1)
     faulthandler.enable()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # it is for the process that asked
-    _limit_memory(memory_limit)
     jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
     threading.Thread(target=_read_jobs, args=(jobs,), daemon=True).start()
     from .work import do_model
+
+    _limit_memory(memory_limit)
 
     def say(**message: Any) -> None:
         answers.write(json.dumps(message) + "\n")
@@ -253,9 +245,14 @@ def _lines(descriptor: int) -> Iterator[bytes]:
 
 
 def _limit_memory(limit: int) -> None:
-    """Have the system refuse more memory than this, where it can: that is an error, not an end."""
+    """Have the system refuse more memory than this, where it can: that is an error, not an end.
+
+    Not before everything is imported: OpenBLAS, refused the memory with which it starts, asks for it again and again
+    for ever. Raises MemoryError where that has left no room for a model.
+    """
     if limit and sys.platform == "linux":
         import resource
 
         resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
+        bytearray(LEAST)
 

@@ -385,6 +385,19 @@ def test_a_process_without_memory_to_start_or_to_compute_is_no_crash(megabytes, 
     assert answer["reason"] == f"It needed more memory than {megabytes / 1024:.3g} GiB."
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems limit no process")
+@pytest.mark.parametrize("megabytes", [10, 60, 80])
+def test_memory_is_limited_once_all_is_imported(megabytes):
+    """OpenBLAS, refused the memory with which it starts, ends the process or, in SciPy 1.17, asks again for ever: each
+    model took two minutes to fail.
+    """
+    small = ModelProcess(megabytes * 2**20)
+    try:
+        assert small._start_surely() == "MemoryError"
+    finally:
+        small.close()
+
+
 def test_a_link_that_leads_nowhere_is_unreadable(models, tmp_path):
     (tmp_path / "link.ply").symlink_to(tmp_path / "none.ply")
     answer = do_model(job(tmp_path / "link.ply", tmp_path / "out"))
