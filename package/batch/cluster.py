@@ -42,8 +42,8 @@ QUIET = {
     "distributed.scheduler.dashboard.tasks.task-stream-length": 1000,
 }
 
-_own = threading.local()
-
+#: Seconds after which a process of models that nobody needs any more ends: the workers of a cluster outlast the run.
+IDLE = 60.0
 _LOST = Sentence("The scheduler does not answer any more; what is done is kept.")
 
 
@@ -210,16 +210,53 @@ def _failure(answer: Any) -> BaseException:
         str(answer))
 
 
+class _IdleProcesses:
+    """Processes of models, kept for the next model of this worker; those that it does not need soon are ended."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._waiting: dict[ModelProcess, threading.Timer] = {}
+
+    def take(self, limit: int) -> ModelProcess:
+        """One of them, or a new one, with a limit of memory in bytes; one that had another limit is ended."""
+        with self._lock:
+            process, timer = self._waiting.popitem() if self._waiting else (None, None)
+        if timer is not None:
+            timer.cancel()
+        if process is not None and process.memory_limit == limit:
+            return process
+        if process is not None:
+            process.close()
+        return ModelProcess(limit)
+
+    def put_by(self, process: ModelProcess) -> None:
+        """Keep one for the next model."""
+        timer = threading.Timer(IDLE, self._end, (process,))
+        timer.daemon = True  # the worker need not wait for it: the process ends with the worker
+        with self._lock:
+            self._waiting[process] = timer
+        timer.start()
+
+    def _end(self, process: ModelProcess) -> None:
+        """End one, unless a model has it by now, or has had it since."""
+        with self._lock:
+            if self._waiting.get(process) is not threading.current_thread():
+                return
+            del self._waiting[process]
+        process.close()
+
+
+_idle = _IdleProcesses()
+
+
 def do_job(job: dict[str, Any]) -> dict[str, Any]:
-    """What a worker does with a model: have it done by the process that belongs to this thread.
+    """What a worker does with a model: have it done by a process that is not the worker's own.
 
     job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory that the worker may use divided
     by its processors, and ``time_limit`` in seconds. Returns the answer of ``ModelProcess.run``.
     """
-    limit = job["memory_limit"] or memory_limit() // cpu_count()
-    process = getattr(_own, "process", None)
-    if process is None or process.memory_limit != limit:
-        if process is not None:
-            process.close()
-        process = _own.process = ModelProcess(limit)
-    return process.run(job, job["time_limit"])
+    process = _idle.take(job["memory_limit"] or memory_limit() // cpu_count())
+    try:
+        return process.run(job, job["time_limit"])
+    finally:
+        _idle.put_by(process)

@@ -648,14 +648,51 @@ def address():
         yield there.scheduler_address
 
 
+def processes_of_models(client):
+    """Those that the workers of a cluster have."""
+    found = []
+    for process in (child for pid in client.run(os.getpid).values() for child in psutil.Process(pid).children()):
+        with suppress(psutil.Error):  # it is just being ended
+            found += [process] if "reeb_parts.batch.model_process" in process.cmdline() else []
+    return found
+
+
 def test_a_cluster_that_is_there_is_used_and_left_as_it_was(address, reeb_parts_command, tmp_path):
+    """A process of 180 MB stayed for each thread of the workers, for as long as these lasted."""
     many(tmp_path / "in", 2)
+    with Client(address) as client:
+        client.run(exec, "import reeb_parts.batch.cluster as cluster; cluster.IDLE = 2.0")
     done = reeb_parts_command("batch", tmp_path / "in", "--out", tmp_path / "out", "--scheduler", address)
     assert done.returncode == 0, done.stderr
     assert len(finished(tmp_path / "out")) == 2
     with Client(address) as client:
         assert len(client.nthreads()) == 2
         assert client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
+        until = time.monotonic() + 15
+        while processes_of_models(client):
+            assert time.monotonic() < until
+            time.sleep(0.1)
+
+
+def test_a_process_of_models_waits_for_the_next_one_and_is_ended_but_once(models, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "IDLE", 1.0)
+    idle = cluster._IdleProcesses()
+    first = idle.take(2**30)
+    assert first.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
+    child = psutil.Process(first._process.pid)
+    idle.put_by(first)
+    assert idle.take(2**30) is first
+    assert idle.take(2**30) is not first  # two models at a time have two
+    time.sleep(1.5)
+    assert alive(child)  # what was to end it had been called off
+    idle.put_by(first)
+    other = idle.take(2**31)
+    assert (other is first, other.memory_limit, alive(child)) == (False, 2**31, False)
+    assert first.run(job(models / "tree.ply", tmp_path / "again"), 60.0)["status"] == "done"
+    child = psutil.Process(first._process.pid)
+    idle.put_by(first)
+    child.wait(timeout=20)
+    assert idle.take(2**30) is not first
 
 
 def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, tmp_path, monkeypatch):
