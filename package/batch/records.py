@@ -134,6 +134,9 @@ def write_record(job: dict[str, Any], record: dict[str, Any], files: dict[str, b
 def record_of(name: str, folder: Path, settings: str) -> dict[str, Any]:
     """The record of a model, given its folder and the digest of the settings; one that says so if it is still open."""
     record = read_record(folder)
-    if record is None or record["settings"] != settings:  # of a run before, with others
+    if record is None:
         return failure(name, OPEN, "It was not reached.", settings)
+    if record["settings"] != settings:  # of a run before, or of one at the same time
+        return failure(name, OPEN, "What is there was made with other parameters or outputs, or by another version.",
+                       settings)
     return record

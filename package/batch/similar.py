@@ -20,6 +20,8 @@ from ..core.sentence import Sentence
 from ..core.uses.descriptors import NAMES, distances
 from ..core.uses.pictures import picture, png
 from ..model_files import read_model
+from ..outputs import LABELS
+from .records import digest_of, read_record
 from .sources import folder_of
 from .tables import read_rows
 
@@ -132,12 +134,14 @@ def page(out: Path, parts: list[dict[str, Any]]) -> str:
 
 
 def _image(out: Path, path: str, part: dict[str, Any]) -> str:
-    """A picture of a part as an element of the page; the thumbnail of its model where that cannot be read any more."""
-    folder = folder_of(out, part["model"])
+    """A picture of a part as an element of the page; the thumbnail of its model where that has gone or changed."""
+    folder, place = folder_of(out, part["model"]), Path(spelled(path))
     try:
-        model = read_model(spelled(path))
-        labels = np.load(folder / "labels.npy")[model.polygon]
-        color = np.where((labels == part["number"] - 1)[:, None], PART, REST)
+        model, labels = read_model(place), _labels(folder)
+        record = read_record(folder)
+        if record is None or record["digest"] != digest_of(place):  # its faces may be others by now
+            raise PartError(Sentence("{path} has changed since the batch.", path=place))
+        color = np.where((labels[model.polygon] == part["number"] - 1)[:, None], PART, REST)
         data = png(picture(TriMesh(model.vertices, model.faces), color, 160, model.up, fine=2))
     except (ReebError, OSError, ValueError, IndexError):
         try:
@@ -145,3 +149,12 @@ def _image(out: Path, path: str, part: dict[str, Any]) -> str:
         except OSError:
             return ""
     return f'<img alt="" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
+
+
+def _labels(folder: Path) -> np.ndarray:
+    """The part of each face of a model, (p,) int64, whatever kind of file its run made; raises OSError, ValueError."""
+    binary, *texts = (folder / f"labels{kind}" for kind in LABELS)
+    for text in texts:
+        if text.is_file():
+            return np.loadtxt(text, np.int64, ndmin=1)
+    return np.load(binary)

@@ -127,6 +127,10 @@ class _Batch:
         self.sources = find_sources(places, kinds, self.out, options.root, self._unread)
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
+        self.blender = options.blender
+        # Workers of a cluster have working folders of their own; a mere name is looked for on the PATH of each.
+        if self.blender and os.path.dirname(self.blender):
+            self.blender = os.path.abspath(self.blender)
         self.kept = 0
         self.failed: dict[str, tuple[str, str]] = {}  # status and reason, by the name of the model
 
@@ -222,7 +226,7 @@ class _Batch:
         own = 0 if self.options.scheduler else memory_limit() // self.workers
         memory = int(limit * 2**30) if limit else own
         return {"path": str(source.path), "name": source.name, "folder": str(self.folder(source)),
-                "settings": self.settings.to_dict(), "blender": self.options.blender, "memory_limit": memory,
+                "settings": self.settings.to_dict(), "blender": self.blender, "memory_limit": memory,
                 "time_limit": self.options.time_limit}
 
     def _lost(self, job: dict[str, Any], error: BaseException) -> dict[str, Any]:

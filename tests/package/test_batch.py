@@ -2,6 +2,7 @@
 """``reeb-parts batch``: what it writes, what one bad model costs, and what is lost when something is killed."""
 
 import argparse
+import base64
 import errno
 import json
 import os
@@ -25,9 +26,9 @@ import shapes
 import trimesh
 from distributed import Client, LocalCluster
 from pyarrow import parquet
-from reeb_parts.batch import cluster
+from reeb_parts.batch import cluster, similar
 from reeb_parts.batch.model_process import ModelProcess
-from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
+from reeb_parts.batch.records import RECORD, Settings, is_done, read_record, record_of
 from reeb_parts.batch.similar import PartError, similar_parts
 from reeb_parts.batch.sources import SourceError, find_sources
 from reeb_parts.batch.tables import MODELS, PARTS
@@ -140,6 +141,29 @@ def test_parts_like_a_part_are_found_with_pictures(batch, reeb_parts_command, tm
     assert page.count("data:image/png;base64,") == page.count("<figure>") == 5
     elsewhere = json.loads(reeb_parts_command("similar", batch[0], "tree.ply:2", "--other-models").stdout)
     assert {row["model"] for row in elsewhere["similar"]} == {"deep/dumb bell.obj"}
+
+
+def test_pictures_show_the_part_whatever_labels_were_asked_for(batch, models, tmp_path):
+    """Of labels as text, pictures were those of whole models."""
+    shown = {}
+    for kind in (".npy", ".txt", ".seg"):
+        do_model(job(models / "tree.ply", tmp_path / kind / "models" / "tree.ply", labels=kind))
+        part = {"model": "tree.ply", "number": 2, "name": "Part 02", "share": 0.1}
+        shown[kind] = similar._image(tmp_path / kind, str(models / "tree.ply"), part)
+    assert shown[".txt"] == shown[".seg"] == shown[".npy"]
+    thumbnail = (tmp_path / ".npy" / "models" / "tree.ply" / "thumbnail.png").read_bytes()
+    assert base64.b64encode(thumbnail).decode() not in shown[".npy"]
+
+
+def test_a_model_that_has_changed_is_shown_as_it_was(models, tmp_path):
+    """The labels of its former faces were shown on those that it has now."""
+    path, folder = tmp_path / "tree.ply", tmp_path / "models" / "tree.ply"
+    shutil.copy(models / "tree.ply", path)
+    do_model(job(path, folder))
+    mesh = trimesh.load_mesh(path, process=False)
+    trimesh.Trimesh(mesh.vertices, mesh.faces[::-1], process=False).export(path)
+    shown = similar._image(tmp_path, str(path), {"model": "tree.ply", "number": 2, "name": "Part 02", "share": 0.1})
+    assert base64.b64encode((folder / "thumbnail.png").read_bytes()).decode() in shown
 
 
 @pytest.mark.parametrize(("part", "status", "words"), [
@@ -256,6 +280,28 @@ def test_a_blender_that_crashes_costs_one_model(tmp_path):
     assert not is_done(tmp_path / "model.abc", tmp_path / "out", Settings(Parameters()))
 
 
+def test_a_blender_is_found_from_other_working_folders(address, reeb_parts_command, tmp_path):
+    """It was looked for below that of each worker of a cluster."""
+    blender = tmp_path / "tools" / "blender"
+    blender.parent.mkdir()
+    blender.write_text("#!/bin/sh\necho 'Error: found'\nexit 1\n")
+    blender.chmod(0o755)
+    (tmp_path / "model.abc").write_bytes(b"Ogawa")
+    reeb_parts_command("batch", "model.abc", "--out", "out", "--blender", "tools/blender", "--scheduler", address,
+                       cwd=tmp_path)
+    (row,) = rows(tmp_path / "out" / "models.parquet")
+    assert (row["status"], row["reason"]) == ("unreadable", f"{tmp_path}/model.abc could not be read: found")
+
+
+def test_results_of_other_parameters_are_said_to_be_there(models, tmp_path):
+    """Of two runs at the same time, each said that it had not reached what the other had replaced."""
+    do_model(job(models / "tree.ply", tmp_path / "tree"))
+    other = record_of("tree.ply", tmp_path / "tree", Settings(Parameters(detail=0.1)).digest)
+    assert (other["status"], other["reason"]) == (
+        "open", "What is there was made with other parameters or outputs, or by another version.")
+    assert record_of("none.ply", tmp_path / "none", "")["reason"] == "It was not reached."
+
+
 def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tmp_path):
     for name in ("scene.blend", "deep/thing.FBX"):
         path = tmp_path / "models" / name
@@ -298,10 +344,10 @@ def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models
 # One model that goes wrong ---------------------------------------------------------------------
 
 
-def job(path, folder, **settings):
+def job(path, folder, labels=".npy", **settings):
     """What a worker is given for a model."""
     return {"path": str(path), "name": path.name, "folder": str(folder), "blender": None,
-            "settings": Settings(Parameters(**settings)).to_dict()}
+            "settings": Settings(Parameters(**settings), labels=labels).to_dict()}
 
 
 @pytest.fixture(scope="module")
