@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .core.arrays.indexing import stable_order
 from .core.errors import ParameterError
 from .core.file_names import file_name
 from .core.mesh.arguments import whole_numbers
@@ -107,9 +108,10 @@ def colored_bytes(model: Model, parts: Parts, kind: str) -> bytes:
 def part_arrays(model: Model, parts: Parts) -> list[tuple[np.ndarray, np.ndarray]]:
     """Vertices, (k, 3), and triangles, (t, 3), of each part."""
     label = parts.labels[model.polygon]
+    order = stable_order(label)
     arrays = []
-    for part in range(parts.count):
-        used, faces = np.unique(model.faces[label == part], return_inverse=True)
+    for own in np.split(order, np.bincount(label, minlength=parts.count).cumsum()[:-1]):
+        used, faces = np.unique(model.faces[own], return_inverse=True)
         arrays.append((model.vertices[used], faces.reshape(-1, 3)))
     return arrays
 

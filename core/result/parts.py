@@ -73,7 +73,7 @@ class Parts:
         """Number of parts."""
         return len(self.area)
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """Name of each part: Part 01, Part 02 and so on."""
         return tuple(default_name(i + 1) for i in range(self.count))

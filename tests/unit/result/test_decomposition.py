@@ -50,6 +50,7 @@ def test_a_row_by_hand():
     assert parts.cut_length.tolist() == [1.5, 0.5]
     assert parts.cut_salience.tolist() == [0.9, 0.4]
     assert parts.names == ("Part 01", "Part 02", "Part 03")
+    assert parts.names is parts.names  # made anew for each part, the names of 2,000 parts took 30 s in one .glb
     assert result.parts(n_parts=2).labels.tolist() == [1, 1, 1, 0, 0, 0, 0]
     assert result.parts(n_parts=4).labels.tolist() == [1, 2, 2, 0, 0, 0, 3]
     assert result.parts(n_parts=1).labels.tolist() == [0] * 7
