@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 from collections.abc import Iterator
@@ -19,6 +20,11 @@ try:
     import fcntl
 except ImportError:  # Windows
     fcntl = None  # type: ignore[assignment]
+
+
+TRIES = 5  # how often a folder is put in its place, if others do the same
+#: What is said of a folder that has just come or gone.
+MOMENTARY = (errno.ENOENT, errno.ENOTEMPTY, errno.EEXIST)
 
 
 class OutputFileError(ReebError, OSError):
@@ -95,9 +101,20 @@ def write_folder(folder: Path, files: dict[str, bytes]) -> None:
             path = place / spelled(name)
             path.parent.mkdir(parents=True, exist_ok=True)
             _write(path, data)
-        put_in_place({place: folder}, nullcontext)
+        _put_in_place(place, folder)
     finally:
         shutil.rmtree(place, ignore_errors=True)
+
+
+def _put_in_place(place: Path, folder: Path) -> None:
+    """``put_in_place`` of a folder, again where another run puts its own there in the same moment; raises OSError."""
+    for left in reversed(range(TRIES)):
+        try:
+            put_in_place({place: folder}, nullcontext)
+            return
+        except OSError as error:
+            if not left or error.errno not in MOMENTARY:
+                raise
 
 
 def remove_leftovers(folder: Path) -> None:

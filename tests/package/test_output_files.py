@@ -2,6 +2,7 @@
 """Files of the package appear whole or not at all, wherever they are written."""
 
 import os
+import shutil
 import subprocess
 import sys
 
@@ -48,6 +49,30 @@ def test_a_folder_that_cannot_be_replaced_is_as_it_was(number, full_at, tmp_path
     assert content(tmp_path) == before
     write_folder(folder, {"record.json": b"new"})
     assert content(tmp_path) == {"models/cow/record.json": b"new"}
+
+
+@pytest.mark.parametrize(("number", "here", "there"), [(1, False, True), (2, True, True), (1, True, False)])
+def test_a_folder_that_another_run_replaces_in_the_same_moment_is_one_of_the_two(number, here, there, monkeypatch,
+                                                                                tmp_path):
+    """It was an error of the model, whose results were there: the other run had put its own there before one of the
+    moves, or had just moved away what was there.
+    """
+    folder, replace, calls = tmp_path / "cow", os.replace, []
+    if here:
+        write_folder(folder, {"record.json": b"old", "parts/1.ply": b"old"})
+
+    def comes_second(*names):
+        calls.append(names)
+        if len(calls) == number and there:
+            write_folder(folder, {"record.json": b"other", "parts/1.ply": b"other"})
+        elif len(calls) == number:
+            shutil.rmtree(folder)
+        replace(*names)
+
+    monkeypatch.setattr(os, "replace", comes_second)
+    write_folder(folder, {"record.json": b"new"})
+    assert content(tmp_path) == {"cow/record.json": b"new"}
+    assert list(tmp_path.iterdir()) == [folder]
 
 
 def test_results_that_a_killed_run_moved_away_are_brought_back(tmp_path):
