@@ -183,7 +183,7 @@ def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) 
         if time.monotonic() > looked + LOOK:
             # Dask keeps the names of the last 100,000 jobs, half a kilobyte each.
             dask.utils.key_split.cache_clear()
-            room, looked = AHEAD * max(_n_threads(client), 1), time.monotonic()
+            room, looked = AHEAD * max(n_threads(client), 1), time.monotonic()
         for job in islice(waiting, max(room - len(running), 0)):
             future = client.submit(function, job, pure=False)
             running[future.key] = job
@@ -196,7 +196,7 @@ def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) 
         yield running.pop(future.key), _failure(answer) if future.status != "finished" else answer
 
 
-def _n_threads(client: Client) -> int:
+def n_threads(client: Client) -> int:
     """How many jobs the workers do at a time; raises SchedulerLostError."""
     try:
         return sum(client.nthreads().values())

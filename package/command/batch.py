@@ -187,6 +187,8 @@ class _Batch:
 
         with cluster.connected(self.options.scheduler, self.workers, self.options.dashboard) as client:
             say(f"Dask's dashboard: {client.dashboard_link}")
+            if not cluster.n_threads(client):  # they may be on their way, as where a cluster grows with its work
+                say("The cluster has no workers; the models wait for some.")
             failed: Counter[str] = Counter()
             with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
                   closing(cluster.spread(client, cluster.do_job, self._jobs(waiting, progress))) as answers):

@@ -482,7 +482,8 @@ def test_what_could_not_be_written_is_no_model_that_was_not_reached(models, tmp_
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "models").write_text("a file in the place of the folder")
     monkeypatch.setattr(cluster, "spread", lambda client, function, jobs: ((job, do_model(job)) for job in jobs))
-    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(SimpleNamespace(dashboard_link="")))
+    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(
+        SimpleNamespace(dashboard_link="", nthreads=lambda: {"": 1})))
     parser = argparse.ArgumentParser()
     command.add_options(parser)
     status = command.run(parser.parse_args([str(models / "tree.ply"), "--out", str(tmp_path / "out")]))
@@ -747,6 +748,19 @@ def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, t
         cluster.connected("tcp://127.0.0.1:1", 1, "").__enter__()
 
 
+def test_a_cluster_without_workers_is_said_to_have_none(request, models, tmp_path):
+    """The bar of progress stood still, and nobody knew why."""
+    with LocalCluster(n_workers=0, dashboard_address=None) as there:
+        run = start(request, models, "--out", tmp_path / "out", "--scheduler", there.scheduler_address)
+        try:
+            run.stderr.readline()  # the address of the dashboard
+            assert run.stderr.readline() == "reeb-parts: The cluster has no workers; the models wait for some.\n"
+            there.scale(1)
+            assert json.loads(run.communicate(timeout=120)[0])["models"]["done"] == 2
+        finally:
+            run.kill()
+
+
 def test_a_scheduler_that_goes_loses_nothing_that_is_done(models, tmp_path, monkeypatch, capsys):
     """What the workers were at became crashes, in place of results that were there by then; then came a traceback."""
     def spread(client, function, jobs):
@@ -755,7 +769,8 @@ def test_a_scheduler_that_goes_loses_nothing_that_is_done(models, tmp_path, monk
         raise cluster.SchedulerLostError("The scheduler does not answer any more")
 
     monkeypatch.setattr(cluster, "spread", spread)
-    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(SimpleNamespace(dashboard_link="")))
+    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(
+        SimpleNamespace(dashboard_link="", nthreads=lambda: {"": 1})))
     parser = argparse.ArgumentParser()
     command.add_options(parser)
     status = command.run(parser.parse_args([str(models), "--out", str(tmp_path / "out")]))
