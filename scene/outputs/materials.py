@@ -107,7 +107,11 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Give each part a material and a slot, in the part's color of the list, if the materials are ours."""
     if not mesh.reeb_parts.has_materials:
         return
+    shared = _shared(mesh)
     _take_names(mesh)
+    for part in mesh.reeb_parts.parts:
+        if part.material in shared and not _has_color(part.material, _rgba(part)):
+            _have_own_(part)
     slots, places = np.zeros(numbered.parts.count, np.int32), {}
     for index, material in enumerate(mesh.materials):
         places.setdefault(material, index)
@@ -115,7 +119,7 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     for label, part in enumerate(mesh.reeb_parts.parts):
         if part.material is None:
             part.material = first = _new(part.name, first)
-        _color_material(part.material, linear(part.color))
+        _color_material(part.material, _rgba(part))
         if part.material not in places:
             places[part.material] = len(mesh.materials)
             mesh.materials.append(part.material)
@@ -142,7 +146,10 @@ def _new(name: str, like: bpy.types.Material | None) -> bpy.types.Material:
 def _take_names(mesh: bpy.types.Mesh) -> None:
     """Give the materials the names of their parts, which may have been those of each other."""
     wrong = [part for part in mesh.reeb_parts.parts if _is_misnamed(part)]
+    shared = _shared(mesh) if wrong else ()
     for part in wrong:
+        if part.material in shared:
+            _have_own_(part)
         _name(part.material, "Reeb Parts")  # no name is in the way of another one
     for part in wrong:
         rename(part)
@@ -151,6 +158,8 @@ def _take_names(mesh: bpy.types.Mesh) -> None:
 def rename(part: bpy.types.PropertyGroup) -> None:
     """Give the part's material, if there is one, the part's name, unless the user has given it another."""
     if _is_misnamed(part):
+        if part.material in _shared(part.id_data, [part]):
+            _have_own_(part)
         _name(part.material, part.name)
 
 
@@ -173,11 +182,49 @@ def _name(material: bpy.types.Material, name: str) -> None:
     material[_OURS] = material.name
 
 
-def _color_material(material: bpy.types.Material, color: np.ndarray) -> None:
+def _shared(mesh: bpy.types.Mesh, parts: Iterable[bpy.types.PropertyGroup] | None = None) -> set[bpy.types.Material]:
+    """The materials of parts that are those of another mesh's parts, too, as a copy of a model has them.
+
+    parts : of the mesh; None for all.
+    """
+    made = (part.material for part in (mesh.reeb_parts.parts if parts is None else parts))
+    # A slot and the list use it; else there is no need to look at all other meshes.
+    several = {material for material in made if material is not None and material.users > 2}
+    return several and several & set().union(*(_own(other) for other in bpy.data.meshes if other != mesh))
+
+
+def _have_own_(part: bpy.types.PropertyGroup) -> None:
+    """Give a part a copy of its material, so that a change of it is none of another model's."""
+    mesh, former = part.id_data, part.material
+    transaction.keep_mesh(mesh)
+    transaction.keep_result(mesh)
+    own = former.copy()
+    if former.get(_OURS) == former.name:
+        own[_OURS] = own.name
+    for index, material in enumerate(mesh.materials):
+        if material == former:
+            mesh.materials[index] = own
+    part.material = own
+
+
+def _rgba(part: bpy.types.PropertyGroup) -> tuple[float, ...]:
+    """The color of a part's material, to the last bit as Blender keeps it."""
+    return tuple(np.array((*linear(part.color), 1.0), np.float32).tolist())
+
+
+def _has_color(material: bpy.types.Material, color: tuple[float, ...]) -> bool:
+    return all(getattr(block, name)[:] == color for block, name in _colors(material))
+
+
+def _color_material(material: bpy.types.Material, color: tuple[float, ...]) -> None:
     """Give a material a color; what has it already is left alone, as Blender takes a millisecond for each change."""
-    nodes = [node.inputs["Base Color"] for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"]
-    wanted = tuple(np.array((*color, 1.0), np.float32).tolist())
-    for block, name in ((material, "diffuse_color"), *((node, "default_value") for node in nodes)):
-        if getattr(block, name)[:] != wanted:
+    for block, name in _colors(material):
+        if getattr(block, name)[:] != color:
             transaction.keep(block, name)
-            setattr(block, name, wanted)
+            setattr(block, name, color)
+
+
+def _colors(material: bpy.types.Material) -> list[tuple[bpy.types.bpy_struct, str]]:
+    """What has the color of a material, and under which name."""
+    nodes = [node.inputs["Base Color"] for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"]
+    return [(material, "diffuse_color"), *((node, "default_value") for node in nodes)]

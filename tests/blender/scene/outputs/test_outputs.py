@@ -320,6 +320,36 @@ def test_seams_that_are_marked_by_hand_meanwhile_stay(owned, after):
     assert np.array_equal([edge.use_seam for edge in edges], (before | marked) & ~cleared)
 
 
+@pytest.mark.parametrize("change", [
+    lambda result: setattr(result.parts[0], "color", (1, 0, 0)),
+    lambda result: setattr(result.parts[0], "name", "Trunk"),
+    lambda result: bpy.ops.reeb_parts.rename(new_name="Trunk"),
+    lambda result: bpy.ops.reeb_parts.suggest_names(),
+    lambda result: setattr(bpy.context.scene.reeb_parts, "palette", "Pastel"),
+    lambda result: bpy.ops.reeb_parts.decompose(materials=True, palette="Pastel", n_parts=3),
+    lambda result: bpy.ops.reeb_parts.clear(),
+], ids=["color", "name", "rename", "suggest", "palette", "decompose", "clear"])
+def test_what_is_done_to_the_materials_of_a_copy_is_not_done_to_the_model(obj, change):
+    """Shift+D copies the mesh, but not its materials: both models had the new color, and the new names."""
+    bpy.ops.reeb_parts.decompose(materials=True)
+    model = contents()
+    bpy.ops.object.duplicate()
+    copy = bpy.context.object.data.name
+    made = bpy.data.meshes[copy].reeb_parts.parts[0].material
+    made.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = 0.25
+    before = {name: dict(values, users=0) for name, values in snapshot()["materials"].items()}
+
+    check_undo(lambda: change(bpy.data.meshes[copy].reeb_parts))
+    now = snapshot()
+    assert now["meshes"]["Tree"] == model[0]
+    for name in model[1]:
+        assert dict(now["materials"][name], users=0) == before[name]
+    for part in bpy.data.meshes[copy].reeb_parts.parts:
+        assert part.material.name.split(".0")[0] == part.name
+        rough = part.material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value
+        assert (rough == 0.25) == (part.number == 1)
+
+
 def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path):
     bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.materials.new("Part 01")}, fake_user=True)
     bpy.data.materials.remove(bpy.data.materials["Part 01"])
