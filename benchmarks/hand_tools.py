@@ -147,7 +147,8 @@ def paint(view: View) -> Callable:
     show = view.show()
 
     def dab(place: tuple[float, float]) -> None:
-        brush.dab(view.target(place).location, radius)
+        target = view.target(place)
+        brush.dab(target.location, radius, target.face)
         show(brush.numbers())
 
     return dab

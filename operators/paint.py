@@ -35,7 +35,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         edits.check_unlocked(obj.data, [number])
         brush = Brush(obj, pointing.Model(obj), number)
         for dab in self.stroke:
-            brush.dab(dab.location[:], dab.radius)
+            brush.dab(dab.location[:], dab.radius, brush.model.face_at(obj, dab.location[:]))
         return paint(context, obj, brush)
 
     def hint(self) -> str:
@@ -107,7 +107,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
                 self._dab(target)
 
     def _dab(self, target: Target) -> None:
-        self.brush.dab(target.location, self.radius)
+        self.brush.dab(target.location, self.radius, target.face)
         dab = self.stroke.add()
         dab.location, dab.radius = target.location.tolist(), self.radius
 
@@ -118,12 +118,9 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
             self.preview.disc = None
             return
         angle = np.linspace(0.0, 2 * np.pi, 49)
-        normal = Vector(self._normal(target.face))
+        normal = Vector(self.model.face_normal[target.face]).normalized()
         first = normal.orthogonal().normalized()
         axes = np.array([first, normal.cross(first)])
         ring = target.location + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) @ axes
         self.preview.show(np.stack([ring[:-1], ring[1:]], axis=1))
         self.preview.disc, self.preview.disc_color = np.concatenate([[target.location], ring]), self.color
-
-    def _normal(self, face: int) -> Vector:
-        return bpy.data.objects[self.model.name].data.polygons[face].normal

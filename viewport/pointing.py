@@ -18,13 +18,14 @@ from numpy.typing import ArrayLike
 from ..scene import store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_follow, graph_objects
-from ..scene.reading import mesh_arrays
+from ..scene.reading import mesh_arrays, seen_points
 from .graph_lines import GraphLines, nearest
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
 REACH = 10.0  # pixels around an arc, of a screen without scaling
+ON_SURFACE = 1e-4  # so near to the surface, as a share of its size, a place lies on it
 
 
 def check_place(location: ArrayLike) -> None:
@@ -42,7 +43,7 @@ class Target:
     candidate : int
         The candidate part there.
     location : (3,) float64
-        In the coordinates of the mesh.
+        In the coordinates of the mesh, where it is seen; of the graph, where that is without modifiers.
     level : float
         Value of the field there.
     face : int
@@ -77,8 +78,19 @@ class Model:
             self.stored.shown, graph_objects.hidden_parts(obj.data, self.stored.face_numbers))
         table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
         self.face_value = table.face_means(np.nan_to_num(self.stored.decomposition.field))
+        # (p, 3) float64 each; of what is seen once ``look`` was called.
         self.face_center = table.face_means(table.vertices)
-        self._tree = None
+        self.face_normal = np.zeros_like(self.face_center)
+        self._surface: Surface | None = None  # the one that was looked at
+        self._trees: dict[int, tuple[np.ndarray, cKDTree]] = {}
+
+    def look(self, context: bpy.types.Context, obj: bpy.types.Object) -> Surface:
+        """The surface of the object as it is shown, on which ``face_center`` and all that is found by it are then."""
+        surface = _surface_of(context, obj)
+        if self._surface is not surface:
+            self.face_center, self.face_normal = surface.face_center, surface.face_normal
+            self._surface, self._trees = surface, {}
+        return surface
 
     @property
     def numbers(self) -> np.ndarray:
@@ -88,11 +100,21 @@ class Model:
     @property
     def tree(self) -> cKDTree:
         """Finds face centers; made when it is needed first."""
+        return self._centers_of(0)[1]
+
+    def _centers_of(self, part: int) -> tuple[np.ndarray, cKDTree]:
+        """The faces of a part, those of all parts for 0, and what finds their centers."""
         from scipy.spatial import cKDTree
 
-        if self._tree is None:
-            self._tree = cKDTree(self.face_center)
-        return self._tree
+        if part not in self._trees:
+            faces = np.flatnonzero(self.numbers == part) if part else np.arange(len(self.numbers))
+            self._trees[part] = faces, cKDTree(self.face_center[faces])
+        return self._trees[part]
+
+    def _nearest_face(self, place: np.ndarray, part: int = 0) -> int:
+        """The face whose center is nearest to a (3,) place, of a part or, for 0, of all."""
+        faces, tree = self._centers_of(part)
+        return int(faces[tree.query(place)[1]])
 
     def number(self, target: Target) -> int:
         """The part that a target lies in."""
@@ -108,7 +130,26 @@ class Model:
         if on_graph and len(self.lines.segments):
             segment, share, _ = nearest(self.lines.position, self.lines.segments, place)
             return _on_line(self.lines, segment, share)
-        return self._on_face(int(self.tree.query(place)[1]), place)
+        return self._on_face(self.face_at(obj, place), place)
+
+    def face_at(self, obj: bpy.types.Object, place: ArrayLike) -> int:
+        """The face that is nearest to a (3,) place, in coordinates of the mesh, as it is seen. Raises SceneError."""
+        check_place(place)
+        surface, place = self.look(bpy.context, obj), np.asarray(place, np.float64)
+        _, _, face, distance = surface.tree.find_nearest(place.tolist())
+        if face is not None and surface.n_faces == len(self.face_value):
+            return face
+        near = face is not None and distance <= ON_SURFACE * float(np.linalg.norm(np.ptp(self.face_center, axis=0)))
+        return self._nearest_face(place, self._part_seen(obj, face) if near else 0)
+
+    def _part_seen(self, obj: bpy.types.Object, face: int) -> int:
+        """The part of a face that a modifier has made, which carries what that face did that it was made of; or 0."""
+        seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+        attribute = seen.attributes.get(obj.data.reeb_parts.face_attribute)
+        if attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "INT"):
+            return 0
+        number = attribute.data[face].value
+        return number if (self.stored.shown == number).any() else 0
 
     def under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
               mouse: tuple[float, float], graph: bool = True, surface: bool = True) -> Target | None:
@@ -142,13 +183,13 @@ class Model:
         ahead = back.to_3x3() @ direction
         if not ahead.length:
             return None
-        surface = _surface_of(context, obj)
+        surface = self.look(context, obj)
         location, _, face, _ = surface.tree.ray_cast(back @ start, ahead)
         if face is None:
             return None
         location = np.array(location)
         if surface.n_faces != len(self.face_value):  # a modifier has made other faces
-            face = int(self.tree.query(location)[1])
+            face = self._nearest_face(location, self._part_seen(obj, face))
         return self._on_face(face, location)
 
     def _on_face(self, face: int, location: np.ndarray) -> Target:
@@ -166,12 +207,16 @@ class Surface:
     points : (k, 3) float32
     n_faces : int
     tree : BVHTree
+    face_center, face_normal : (p, 3) float64
+        Of the faces of the mesh itself, as they are seen.
     """
 
     uid: int
     points: np.ndarray
     n_faces: int
     tree: BVHTree
+    face_center: np.ndarray
+    face_normal: np.ndarray
 
 
 _surfaces: list[Surface] = []  # the last one
@@ -189,7 +234,8 @@ def _surface_of(context: bpy.types.Context, obj: bpy.types.Object) -> Surface:
     if not _surfaces or (_surfaces[0].uid, _surfaces[0].n_faces) != (obj.session_uid, n_faces) or not np.array_equal(
             _surfaces[0].points, points):
         _surfaces.clear()
-        _surfaces.append(Surface(obj.session_uid, points, n_faces, BVHTree.FromObject(obj, depsgraph)))
+        tree = BVHTree.FromObject(obj, depsgraph)
+        _surfaces.append(Surface(obj.session_uid, points, n_faces, tree, *seen_points.seen_faces(context, obj)))
     return _surfaces[0]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.arrays.vectors import middles_of_each
 from ...core.result.numbering import NumberedParts
-from ..reading import mesh_arrays, placing
+from ..reading import mesh_arrays, placing, seen_points
 
 _middles: list[tuple[tuple, np.ndarray]] = []  # the last ones, with what they are of
 
@@ -36,11 +36,13 @@ def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarr
 
 
 def box(obj: bpy.types.Object, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The corners, least and largest, of the box around some faces of an object as it is shown, in the world.
+    """The corners, least and largest, of the box around some faces of an object as it is seen, in the world.
 
     mask : (p,) bool, at least one.
     """
     vertex, face = mesh_arrays.face_corners(obj.data)
-    points = mesh_arrays.shown_points(obj)[np.unique(vertex[mask[face]])]
+    corners = seen_points.seen_corners(bpy.context, obj)
+    points = mesh_arrays.shown_points(obj)[vertex] if corners is None else corners
+    points = points[mask[face]]
     points = placing.transformed(points, placing.world_matrix(obj))
     return points.min(axis=0), points.max(axis=0)

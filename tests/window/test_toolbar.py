@@ -42,6 +42,11 @@ def test_a_box_chooses_all_parts_that_are_seen_in_it_and_no_others(seen):
     assert len(seen["seen"]) < len(seen["merged"]) + 1  # one is behind the others
 
 
+def test_a_box_is_around_what_is_seen_there_in_a_pose_or_by_a_modifier(seen):
+    """It was around the places of the parts without modifiers."""
+    assert seen["box where it is seen"] == ["Part 06", []]
+
+
 def test_m_merges_the_chosen_parts(seen):
     assert "Part 01" not in seen["merged"]
     assert sum(seen["merged"].values()) == pytest.approx(1.0, abs=5e-3)
@@ -101,8 +106,8 @@ def test_a_click_selects_another_object(seen):
     assert seen["to the cube"] == "Cube"
 
 
-@pytest.mark.parametrize("name", ["clicks undone", "box undone", "merge undone", "choice undone", "cut undone",
-                                  "cut escaped", "paint undone",
+@pytest.mark.parametrize("name", ["clicks undone", "box undone", "box where it is seen undone", "merge undone",
+                                  "choice undone", "cut undone", "cut escaped", "paint undone",
                                   "grow undone", "grow escaped", "slide undone", "rename undone", "hiding undone"])
 def test_undo_is_exact(seen, name):
     assert seen[name] == []

@@ -30,8 +30,8 @@ def steps():
     yield 0.5
     pointer.view_area().spaces.active.show_region_toolbar = True
     note("a thin wall", filled())
-    for scene in (started, hovered, clicked, boxed, merged, cut, painted, grown, slid, renamed, hidden, framed,
-                  kept, elsewhere):
+    for scene in (started, hovered, clicked, boxed, boxed_where_seen, merged, cut, painted, grown, slid, renamed,
+                  hidden, framed, kept, elsewhere):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
 
@@ -102,6 +102,22 @@ def boxed():
     note("box", chosen())
     pointer.shot("3_box.png")
     yield from undo_to("box undone", before)
+
+
+def boxed_where_seen():
+    """A box around a part that a modifier has moved away."""
+    before = snapshot()
+    modifier = spot().modifiers.new("Away", "DISPLACE")
+    modifier.direction, modifier.mid_level, modifier.strength = "Z", 0.0, 0.8
+    modifier.vertex_group = "Part 06"
+    bpy.ops.ed.undo_push(message="Displace")
+    yield 0.5
+    x, y = pointer.surface_places(spot())[number("Part 06")]
+    yield from pointer.drag([(x - 20, y - 20), (x, y), (x + 20, y + 20)])
+    yield 0.3
+    note("box where it is seen", chosen())
+    pointer.shot("3_box_where_seen.png")
+    yield from undo_to("box where it is seen undone", before, 2)
 
 
 def merged():

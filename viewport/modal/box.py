@@ -10,7 +10,6 @@ from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
-from ...scene.reading import mesh_arrays
 from ..pointing import Model, on_screen
 
 SAMPLES = 64  # faces of each part that are looked at, whether something hides them
@@ -25,6 +24,7 @@ def parts_in_box(context: bpy.types.Context, obj: bpy.types.Object, model: Model
     low, high : corners of the box, in pixels of the region.
     """
     context.view_layer.update()
+    model.look(context, obj)
     places = on_screen(model.face_center, obj.matrix_world, region)
     with np.errstate(invalid="ignore"):  # nan: behind the viewer
         inside = ((places >= low) & (places <= high)).all(axis=1)
@@ -39,13 +39,12 @@ def parts_in_box(context: bpy.types.Context, obj: bpy.types.Object, model: Model
 def _turned_here(obj: bpy.types.Object, model: Model, view: bpy.types.RegionView3D) -> np.ndarray:
     """Whether each face is turned towards the viewer, (p,) bool."""
     back = obj.matrix_world.inverted_safe()
-    normal = mesh_arrays.read(obj.data.polygons, "normal", np.float32, 3)
     eye = view.view_matrix.inverted_safe()
     if view.window_matrix[3][3] == 0.0:  # in perspective
         ahead = model.face_center - np.array(back @ eye.translation)
     else:
         ahead = np.array(back.to_3x3() @ -eye.to_3x3().col[2])
-    return (normal * ahead).sum(axis=1) < 0.0
+    return (model.face_normal * ahead).sum(axis=1) < 0.0
 
 
 def _sampled(numbers: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ from ...scene.changes import edits
 from ...scene.errors import SceneError
 from ...scene.reading import mesh_arrays
 from ...scene.result import part_names
-from ..pointing import Model, check_place
+from ..pointing import Model
 
 # What a stroke leaves of a part between itself and others goes along if it is smaller than this share of what it took;
 # a hand beyond a painted bracelet does not.
@@ -39,6 +39,7 @@ class Brush:
 
     def __init__(self, obj: bpy.types.Object, model: Model, number: int) -> None:
         self.model, self.number = model, number
+        model.look(bpy.context, obj)
         count = len(model.face_value)
         pairs, _ = mesh_arrays.joined_table(obj.data).face_pairs()
         first, second = both_ways(pairs).T
@@ -49,13 +50,11 @@ class Brush:
         self._locked = np.zeros(count, bool)
         self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
 
-    def dab(self, location: ArrayLike, radius: float) -> None:
+    def dab(self, location: ArrayLike, radius: float, first: int) -> None:
         """Paint faces around a location, (3,), in coordinates of the mesh, as far as the surface goes there.
 
-        Raises SceneError if the location is none.
+        first : the face that the location lies on.
         """
-        check_place(location)
-        _, first = self.model.tree.query(location)
         near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)
         if first not in near:  # faces larger than the brush are painted one by one
             near = np.append(near, first)

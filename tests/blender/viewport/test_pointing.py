@@ -198,6 +198,83 @@ def test_a_ray_meets_the_part_that_is_seen_there(package, obj, result, change):
     assert model.along(bpy.context, obj, Vector((50, 50, 50)), Vector((1, 0, 0))) is None
 
 
+def bent(obj, *modifiers):
+    """Bend what is far out in x by an armature, before other modifiers; part, middle and normal of each face seen."""
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    activate(rig)
+    bpy.ops.object.mode_set(mode="EDIT")
+    rig.data.edit_bones.new("Bone").tail = (0.0, 0.0, 1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    group = obj.vertex_groups.new(name="Bone")
+    for vertex in obj.data.vertices:
+        group.add([vertex.index], min(max((vertex.co.x - 0.2) / 0.6, 0.0), 1.0), "REPLACE")
+    obj.modifiers.new("Rig", "ARMATURE").object = rig
+    for kind in modifiers:
+        obj.modifiers.new(kind, kind)
+    rig.pose.bones["Bone"].rotation_mode = "XYZ"
+    rig.pose.bones["Bone"].rotation_euler.y = 1.2
+    activate(obj)
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    return numbers(seen), np.array([face.center[:] for face in seen.polygons]), np.array(
+        [face.normal[:] for face in seen.polygons])
+
+
+@pytest.mark.parametrize("modifiers", [(), ("SUBSURF",), ("SUBSURF", "MIRROR"), ("SOLIDIFY",)], ids="+".join)
+def test_in_a_pose_the_part_is_the_one_that_is_seen_there(obj, result, package, modifiers):
+    """With Subdivision it was that of the nearest face without the pose: on a bent arm, of the body."""
+    pointing = sys.modules[f"{package}.viewport.pointing"]
+    part, center, normal = bent(obj, *modifiers)
+    model = pointing.Model(obj)
+    for face in np.random.default_rng(0).permutation(len(part))[:200]:
+        start, way = Vector(center[face] + normal[face]), Vector(-normal[face])
+        _, _, _, hit = obj.ray_cast(start, way)
+        target = model.along(bpy.context, obj, start, way)
+        assert model.number(target) == part[hit]
+        again = model.at(obj, target.location, False)
+        assert (again.face, again.candidate) == (target.face, target.candidate)
+
+
+def test_on_coarse_faces_a_place_is_on_the_face_that_it_lies_on(package, scene):
+    """It was on the one with the nearest middle: what is adjusted after a click cut elsewhere, or another part."""
+    pointing = sys.modules[f"{package}.viewport.pointing"]
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.reeb_parts.decompose()
+    obj = bpy.context.object
+    model = pointing.Model(obj)
+    for face in obj.data.polygons:
+        corner = obj.data.vertices[face.vertices[0]].co
+        assert model.at(obj, corner.lerp(face.center, 0.2), False).face == face.index
+
+
+def test_in_a_pose_a_part_is_framed_where_it_is_seen(obj, result, package):
+    part_places = importlib.import_module(f"{package}.scene.result.part_places")
+    part, _, _ = bent(obj)
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    for number in set(part.tolist()):
+        corners = {corner for face in mesh.polygons if part[face.index] == number for corner in face.vertices}
+        points = np.array([mesh.vertices[corner].co[:] for corner in corners])
+        low, high = part_places.box(obj, numbers(obj.data) == number)
+        assert np.allclose([low, high], [points.min(axis=0), points.max(axis=0)], atol=1e-5)
+
+
+@pytest.mark.parametrize("modifiers", [(), ("SUBSURF",)], ids="+".join)
+def test_in_a_pose_paint_takes_the_faces_that_are_seen_under_the_brush(obj, result, modifiers):
+    """It took those that are there without the pose."""
+    part, center, _ = bent(obj, *modifiers)
+    result.active = 0
+    # The tip that is bent furthest, of a part that is not the active one.
+    place = center[np.flatnonzero(part != result.parts[0].number)][
+        center[part != result.parts[0].number][:, 0].argmax()]
+    bpy.ops.reeb_parts.paint(stroke=dabs(place, size=0.2))
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    moved = numbers(seen) != part
+    assert moved.any()
+    assert len(set(numbers(seen)[moved].tolist())) == 1
+    assert (np.linalg.norm(center[moved] - place, axis=1) < 0.25).all()
+    assert moved[np.linalg.norm(center - place, axis=1) < 0.1].all()
+
+
 def dabs(*places, size):
     return [{"name": "", "location": tuple(place), "radius": size} for place in places]
 
