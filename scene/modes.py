@@ -34,11 +34,35 @@ def object_mode(context: bpy.types.Context) -> Iterator[None]:
     if mode == "OBJECT":
         yield
         return
+    together = edited_together(context.view_layer) if mode == "EDIT" else []
     set_mode(active, "OBJECT")
     try:
         yield
     finally:
+        return_to(context.view_layer, active, mode, together)
+
+
+def edited_together(layer: bpy.types.ViewLayer) -> list[bpy.types.Object]:
+    """The objects that are in Edit Mode, which all leave it together."""
+    return [obj for obj in layer.objects if obj is not None and obj.mode == "EDIT"]
+
+
+def return_to(layer: bpy.types.ViewLayer, active: bpy.types.Object, mode: str,
+              together: list[bpy.types.Object]) -> None:
+    """Go from Object Mode to the mode that the active object had; to Edit Mode for those objects that were in it.
+
+    Blender enters it for all that are selected, and for these only.
+    """
+    # After removals some places are empty.
+    selected = [obj for obj in layer.objects.selected if obj is not None] if mode == "EDIT" else []
+    wrong = [obj for obj in {*selected, *together} if (obj in selected) != (obj in together)]
+    for obj in wrong:
+        obj.select_set(obj in together, view_layer=layer)
+    try:
         set_mode(active, mode)
+    finally:
+        for obj in wrong:
+            obj.select_set(obj not in together, view_layer=layer)
 
 
 def leave_edit_mode(context: bpy.types.Context) -> None:

@@ -24,7 +24,7 @@ from typing import Any
 import bpy
 
 from . import property_updates
-from .modes import set_mode
+from .modes import edited_together, return_to, set_mode
 from .renaming import rename
 from .snapshots import MeshCopy, set_values, values_of
 
@@ -186,6 +186,7 @@ class Transaction:
         self._active = self._layer.objects.active
         self._mode = self._active.mode if self._active else "OBJECT"
         self._selected = list(self._layer.objects.selected)
+        self._together = edited_together(self._layer) if self._mode == "EDIT" else []
 
     def is_new(self, block: bpy.types.ID) -> bool:
         return not any(block.session_uid in there for there in self._there.values())
@@ -250,7 +251,7 @@ class Transaction:
                 obj.select_set(obj in wanted, view_layer=self._layer)
         self._layer.objects.active = self._active
         if self._active is not None and self._active.mode != self._mode:
-            set_mode(self._active, self._mode)
+            return_to(self._layer, self._active, self._mode, self._together)
 
 
 def _restore_group(block: bpy.types.ID, name: str, values: dict | None) -> None:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Commands on parts with several objects selected: each is done, in one step of undo, or none is."""
 
+import contextlib
+
 import bpy
 import pytest
 from snapshot import activate, changes, check_undo, snapshot
@@ -112,3 +114,28 @@ def test_of_linked_duplicates_one_gets_the_armature(obj, capfd):
     assert DONE["hulls"](other)
     assert bpy.ops.reeb_parts.unwrap() == {"FINISHED"}
     assert "Tree: Unwrapped" not in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("change", [
+    bpy.ops.reeb_parts.split,
+    bpy.ops.reeb_parts.seams,
+    lambda: setattr(bpy.context.object.data.reeb_parts, "detail", 0.9),
+    lambda: bpy.ops.reeb_parts.names_from_active(),  # refuses: no part has a name
+    lambda: setattr(bpy.context.object.data.reeb_parts.parts[0], "locked", True),
+], ids=["split", "seams", "detail", "refused", "locked"])
+def test_the_objects_that_are_edited_stay_those_that_are_edited(three, change):
+    """In the Outliner, objects are selected and deselected while others are edited; Blender edits what is selected."""
+    one, two, three_ = three("edited")
+    select(one, two)
+    bpy.ops.object.mode_set(mode="EDIT")
+    two.select_set(False)
+    three_.select_set(True)
+
+    def situation():
+        return [(obj.mode, obj.select_get()) for obj in (one, two, three_)]
+
+    before = situation()
+    assert before == [("EDIT", True), ("EDIT", False), ("OBJECT", True)]
+    with contextlib.suppress(RuntimeError):
+        change()
+    assert situation() == before
