@@ -213,8 +213,13 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 
 def _goes_back(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> bool:
-    """Whether a property that was changed has gone back, since its mesh cannot be written; the panel says why."""
-    if not why_not_left(context.view_layer.objects.active):
+    """Whether a property that was changed has gone back, since its mesh cannot be written; the panel says why.
+
+    A mesh of another file, or of no object, is changed by scripts only.
+    """
+    mesh = result.id_data
+    writable = mesh.is_editable and mesh.override_library is None and targets.users(mesh)
+    if writable and not why_not_left(context.view_layer.objects.active):
         return False
     with property_updates.quiet():
         result.take_back()

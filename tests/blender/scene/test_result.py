@@ -416,3 +416,20 @@ def test_a_message_names_the_object_and_not_its_mesh(obj, second):
     obj.data.vertices[0].co.x += 1
     with pytest.raises(RuntimeError, match="Hero was edited since"):
         bpy.ops.reeb_parts.separate()
+
+
+def test_a_mesh_that_no_object_has_keeps_its_parts(obj):
+    """A script that set its Detail got a traceback."""
+    bpy.ops.reeb_parts.decompose(n_parts=4)
+    mesh = obj.data
+    mesh.use_fake_user = True
+    obj.data = bpy.data.meshes.new("Other")
+    before = snapshot()
+    mesh.reeb_parts.detail = 0.9
+    mesh.reeb_parts.n_parts = 2
+    mesh.reeb_parts.parts[0].locked = True
+    mesh.reeb_parts.parts[0].color = (1.0, 0.0, 0.0)
+    assert snapshot() == before
+    obj.data = mesh
+    mesh.reeb_parts.n_parts = 2
+    assert len(mesh.reeb_parts.parts) == 2
