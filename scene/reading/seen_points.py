@@ -8,6 +8,7 @@ import numpy as np
 
 from ...core.arrays.indexing import sums_by
 from ...core.arrays.vectors import cross
+from ...core.mesh.corners import next_of_owner
 from . import mesh_arrays
 
 # Modifiers that move vertices or change what these carry, and such that put new ones behind those that there were.
@@ -74,22 +75,22 @@ def seen_corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarra
     return None
 
 
+def corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray:
+    """As ``seen_corners``; where the object's own corners are if that knows none."""
+    seen = seen_corners(context, obj)
+    return mesh_arrays.shown_points(obj)[mesh_arrays.corner_vertices(obj.data)] if seen is None else seen
+
+
 def seen_faces(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     """The mean of the corners of each face as it is seen, and where it is turned to; not in Edit Mode.
 
     Returns two (p, 3) float64 in the object's coordinates; the second are as long as the faces are large.
     """
-    corners, face = seen_corners(context, obj), mesh_arrays.face_corners(obj.data)[1]
-    if corners is None:
-        corners = mesh_arrays.shown_points(obj)[mesh_arrays.corner_vertices(obj.data)]
+    seen, face = corners(context, obj).astype(np.float64), mesh_arrays.face_corners(obj.data)[1]
     count = len(obj.data.polygons)
-    total = np.bincount(face, minlength=count)
-    center = (sums_by(face, corners.astype(np.float64), count).T / total).T
-    last = np.append(face[1:] != face[:-1], True)[: len(face)]
-    following = np.arange(1, len(face) + 1)
-    following[last] = np.append(0, np.flatnonzero(last)[:-1] + 1)[: last.sum()]
-    arm = corners - center[face]
-    return center, 0.5 * sums_by(face, cross(arm, arm[following]), count)
+    center = (sums_by(face, seen, count).T / np.bincount(face, minlength=count)).T
+    arm = seen - center[face]
+    return center, 0.5 * sums_by(face, cross(arm, arm[next_of_owner(face)]), count)
 
 
 def _shown(obj: bpy.types.Object) -> list[bpy.types.Modifier]:

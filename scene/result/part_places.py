@@ -40,9 +40,6 @@ def box(obj: bpy.types.Object, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
     mask : (p,) bool, at least one.
     """
-    vertex, face = mesh_arrays.face_corners(obj.data)
-    corners = seen_points.seen_corners(bpy.context, obj)
-    points = mesh_arrays.shown_points(obj)[vertex] if corners is None else corners
-    points = points[mask[face]]
+    points = seen_points.corners(bpy.context, obj)[mask[mesh_arrays.face_corners(obj.data)[1]]]
     points = placing.transformed(points, placing.world_matrix(obj))
     return points.min(axis=0), points.max(axis=0)
