@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from ..scene import store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_follow, graph_objects
+from ..scene.outputs.kept_aside import find_attribute
 from ..scene.reading import mesh_arrays, seen_points
 from .graph_lines import GraphLines, nearest
 
@@ -145,8 +146,8 @@ class Model:
     def _part_seen(self, obj: bpy.types.Object, face: int) -> int:
         """The part of a face that a modifier has made, which carries what that face did that it was made of; or 0."""
         seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-        attribute = seen.attributes.get(obj.data.reeb_parts.face_attribute)
-        if attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "INT"):
+        attribute = find_attribute(seen, obj.data.reeb_parts.face_attribute, "INT", "FACE")
+        if attribute is None:
             return 0
         number = attribute.data[face].value
         return number if (self.stored.shown == number).any() else 0

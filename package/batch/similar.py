@@ -137,10 +137,10 @@ def _image(out: Path, path: str, part: dict[str, Any]) -> str:
     """A picture of a part as an element of the page; the thumbnail of its model where that has gone or changed."""
     folder, place = folder_of(out, part["model"]), Path(spelled(path))
     try:
-        model, labels = read_model(place), _labels(folder)
         record = read_record(folder)
         if record is None or record["digest"] != digest_of(place):  # its faces may be others by now
             raise PartError(Sentence("{path} has changed since the batch.", path=place))
+        model, labels = read_model(place), _labels(folder)
         color = np.where((labels[model.polygon] == part["number"] - 1)[:, None], PART, REST)
         data = png(picture(TriMesh(model.vertices, model.faces), color, 160, model.up, fine=2))
     except (ReebError, OSError, ValueError, IndexError):

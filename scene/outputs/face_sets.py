@@ -56,8 +56,7 @@ def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
         before = np.ones_like(now)
         if _KEPT in mesh.attributes:
             before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
-        # Blender's Join adds a number to all of an object, so that no two objects share a face set.
-        if not np.ptp((now - numbers)[numbers > 0]):
+        if _are_of_parts(now, numbers):
             now = np.where(numbers > 0, before, now)
             mesh.attributes[NAME].data.foreach_set("value", now)
         if not _are_ours(mesh) and (now <= 1).all():  # one set is none
@@ -87,10 +86,17 @@ def keep_drawn(mesh: bpy.types.Mesh) -> None:
     if not sets or not written:
         return
     numbers, now = (mesh_arrays.read(each.data, "value", np.int32) for each in (written, sets))
-    ours = numbers > 0
-    # Blender's Join adds a number to all of an object, so that no two objects share a face set.
-    if ours.any() and np.ptp((now - numbers)[ours]):
-        _keep_aside(mesh, now, ours & (now != numbers))
+    if not _are_of_parts(now, numbers):
+        _keep_aside(mesh, now, (numbers > 0) & (now != numbers))
+
+
+def _are_of_parts(sets: np.ndarray, numbers: np.ndarray) -> bool:
+    """Whether the face sets of all faces of parts, numbers above 0, are these; (p,) int32 each.
+
+    Blender's Join adds a number to all of an object, so that no two objects share a face set.
+    """
+    beyond = (sets - numbers)[numbers > 0]
+    return not len(beyond) or not np.ptp(beyond)
 
 
 def _keep_aside(mesh: bpy.types.Mesh, now: np.ndarray, some: np.ndarray) -> None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Collection, Container, Iterable
 
 import bpy
 import numpy as np
@@ -107,11 +107,10 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Give each part a material and a slot, in the part's color of the list, if the materials are ours."""
     if not mesh.reeb_parts.has_materials:
         return
-    shared = _shared(mesh)
+    shared = _shared(mesh, mesh.reeb_parts.parts)
+    _have_own_(mesh, [part for part in mesh.reeb_parts.parts if part.material in shared
+                      and (_is_misnamed(part) or not _has_color(part.material, _rgba(part)))])
     _take_names(mesh)
-    for part in mesh.reeb_parts.parts:
-        if part.material in shared and not _has_color(part.material, _rgba(part)):
-            _have_own_(part)
     slots, places = np.zeros(numbered.parts.count, np.int32), {}
     for index, material in enumerate(mesh.materials):
         places.setdefault(material, index)
@@ -146,20 +145,18 @@ def _new(name: str, like: bpy.types.Material | None) -> bpy.types.Material:
 def _take_names(mesh: bpy.types.Mesh) -> None:
     """Give the materials the names of their parts, which may have been those of each other."""
     wrong = [part for part in mesh.reeb_parts.parts if _is_misnamed(part)]
-    shared = _shared(mesh) if wrong else ()
     for part in wrong:
-        if part.material in shared:
-            _have_own_(part)
         _name(part.material, "Reeb Parts")  # no name is in the way of another one
     for part in wrong:
-        rename(part)
+        if _is_misnamed(part):
+            _name(part.material, part.name)
 
 
 def rename(part: bpy.types.PropertyGroup) -> None:
     """Give the part's material, if there is one, the part's name, unless the user has given it another."""
     if _is_misnamed(part):
-        if part.material in _shared(part.id_data, [part]):
-            _have_own_(part)
+        if _shared(part.id_data, [part]):
+            _have_own_(part.id_data, [part])
         _name(part.material, part.name)
 
 
@@ -182,29 +179,28 @@ def _name(material: bpy.types.Material, name: str) -> None:
     material[_OURS] = material.name
 
 
-def _shared(mesh: bpy.types.Mesh, parts: Iterable[bpy.types.PropertyGroup] | None = None) -> set[bpy.types.Material]:
-    """The materials of parts that are those of another mesh's parts, too, as a copy of a model has them.
-
-    parts : of the mesh; None for all.
-    """
-    made = (part.material for part in (mesh.reeb_parts.parts if parts is None else parts))
+def _shared(mesh: bpy.types.Mesh, parts: Iterable[bpy.types.PropertyGroup]) -> set[bpy.types.Material]:
+    """The materials of some parts of a mesh that are those of another mesh's, too, as a copy of a model has them."""
     # A slot and the list use it; else there is no need to look at all other meshes.
-    several = {material for material in made if material is not None and material.users > 2}
+    several = {part.material for part in parts if part.material is not None and part.material.users > 2}
     return several and several & set().union(*(_own(other) for other in bpy.data.meshes if other != mesh))
 
 
-def _have_own_(part: bpy.types.PropertyGroup) -> None:
-    """Give a part a copy of its material, so that a change of it is none of another model's."""
-    mesh, former = part.id_data, part.material
+def _have_own_(mesh: bpy.types.Mesh, parts: Collection[bpy.types.PropertyGroup]) -> None:
+    """Give some parts of a mesh copies of their materials, so that a change of them is none of another model's."""
+    if not parts:
+        return
     transaction.keep_mesh(mesh)
     transaction.keep_result(mesh)
-    own = former.copy()
-    if former.get(_OURS) == former.name:
-        own[_OURS] = own.name
+    copies = {}
+    for part in parts:
+        former = part.material
+        copies[former] = part.material = own = former.copy()
+        if former.get(_OURS) == former.name:
+            own[_OURS] = own.name
     for index, material in enumerate(mesh.materials):
-        if material == former:
-            mesh.materials[index] = own
-    part.material = own
+        if material in copies:
+            mesh.materials[index] = copies[material]
 
 
 def _rgba(part: bpy.types.PropertyGroup) -> tuple[float, ...]:
