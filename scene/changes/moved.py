@@ -2,7 +2,7 @@
 """A mesh that was moved as a whole since it was decomposed keeps its parts: the result and its graph go along.
 
 So Blender's Apply and Set Origin do, and scaling all vertices in Edit Mode. As with an object that is scaled, the parts
-stay those of the shape that was decomposed. Not so half of a model, whose other half stays at the mirror.
+stay those of the shape that was decomposed. So does half of a model that was not moved against its other half.
 """
 
 from __future__ import annotations
@@ -30,10 +30,8 @@ def load(mesh: bpy.types.Mesh) -> store.Stored:
 
 def follow(mesh: bpy.types.Mesh) -> bool:
     """Make the result of a mesh that of the mesh where it is now; whether it was moved as a whole. Not in Edit Mode."""
-    if any(half_models.mirror_of(obj) is not None for obj in targets.users(mesh)):
-        return False
     motion = fingerprints.motion_since(mesh, mesh.reeb_parts.fingerprint)
-    if motion is None:
+    if motion is None or not all(half_models.moves_with_its_image(obj, *motion) for obj in targets.users(mesh)):
         return False
     matrix, offset = motion
     try:

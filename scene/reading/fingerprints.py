@@ -52,7 +52,7 @@ def keep_shape(fingerprint: str) -> None:
 def motion_since(mesh: bpy.types.Mesh, known: str) -> tuple[np.ndarray, np.ndarray] | None:
     """How a mesh was moved as a whole since it had a fingerprint: a matrix (3, 3) and then an offset (3,); float64.
 
-    None if it was edited in any other way, if it is flat, or if nothing is known of it as it was. Not in Edit Mode.
+    None if it was edited in any other way, if it is a line, or if nothing is known of it as it was. Not in Edit Mode.
     """
     fingerprint(mesh)
     (after, *faces), _ = _digested[0]
@@ -74,14 +74,28 @@ def motion_since(mesh: bpy.types.Mesh, known: str) -> tuple[np.ndarray, np.ndarr
 
 
 def _affine(old: np.ndarray, new: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """The matrix and the offset that take points, (k, 3), nearest to others; None if they are flat, or mirrored."""
+    """The matrix and the offset that take points, (k, 3), nearest to others; None if these are flatter, or mirrored."""
     middle, now = old.mean(axis=0), new.mean(axis=0)
     if not (np.isfinite(middle).all() and np.isfinite(now).all()):
         return None
-    transposed, _, rank, _ = np.linalg.lstsq(old - middle, new - now, rcond=1e-6)
-    if rank < 3 or np.linalg.det(transposed) <= 0:
+    # Far from the origin what is flat is so within the rounding of its coordinates.
+    flat = max(1e-6, 4.0 * np.finfo(np.float32).eps * np.abs(old).max() / max(np.ptp(old), np.finfo(np.float64).tiny))
+    transposed, _, rank, _ = np.linalg.lstsq(old - middle, new - now, rcond=flat)
+    if rank == 2:
+        transposed = _off_the_plane(transposed, flat)
+    if rank < 2 or np.linalg.det(transposed) <= 0:
         return None
     return transposed.T, now - middle @ transposed
+
+
+def _off_the_plane(transposed: np.ndarray, flat: float) -> np.ndarray:
+    """A map of a plane, (3, 3), that also takes what lies off it there, without mirroring; zeros if it is none."""
+    before, scales, after = np.linalg.svd(transposed)
+    if scales[1] <= flat * scales[0]:
+        return np.zeros((3, 3))
+    scales[2] = np.sqrt(scales[0] * scales[1])  # as large as the plane becomes
+    after[2] *= np.linalg.det(before) * np.linalg.det(after)
+    return before * scales @ after
 
 
 def digest(*arrays: np.ndarray) -> str:

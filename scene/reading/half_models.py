@@ -7,9 +7,11 @@ import bpy
 import numpy as np
 
 from ...core.symmetry.halves import is_one_side
+from .mesh_arrays import basis_points
 from .placing import world_matrix
 
-_ROUNDING = 1e-4  # by how much the axes of a mirror object may be no axes of a mirror
+_ROUNDING = 1e-4  # by how much the axes of a mirror object may be no axes of a mirror, and a plane another one
+_TINY = np.finfo(np.float64).tiny
 
 
 def mirror_of(obj: bpy.types.Object) -> bpy.types.Modifier | None:
@@ -21,6 +23,21 @@ def mirror_of(obj: bpy.types.Object) -> bpy.types.Modifier | None:
     if first is None or first.type != "MIRROR" or not first.show_viewport or sum(first.use_axis) != 1:
         return None
     return None if any(first.use_bisect_axis) else first
+
+
+def moves_with_its_image(obj: bpy.types.Object, matrix: np.ndarray, offset: np.ndarray) -> bool:
+    """Whether an object that was moved within its coordinates is seen as it was: it is no half model, or a plane of its
+    own axes mirrors it that was where it is. Where another object mirrors it, nobody knows how that lay before.
+
+    matrix : (3, 3) float64. offset : (3,) float64, added then.
+    """
+    modifier = mirror_of(obj)
+    if modifier is None:
+        return True
+    flip = np.where(modifier.use_axis, -1.0, 1.0)
+    turned = np.abs(matrix - flip[:, None] * matrix * flip).max() / np.linalg.norm(matrix)
+    moved = np.abs(offset - flip * offset).max() / max(np.linalg.norm(np.ptp(basis_points(obj.data), axis=0)), _TINY)
+    return modifier.mirror_object is None and bool(max(turned, moved) <= _ROUNDING)
 
 
 def half_plane(obj: bpy.types.Object, vertices: np.ndarray, stretch: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+import shapes
 from mathutils import Matrix, Vector
 from results import numbers
 from snapshot import snapshot
@@ -294,10 +295,8 @@ def apply_to_the_mesh():
     obj.matrix_world.identity()
 
 
-@pytest.mark.parametrize("move", [apply_transform, set_origin, apply_to_the_mesh])
-def test_a_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, obj, move):
-    """The parts were out of date, and the graph lay about, once the scale was applied."""
-    obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1), (0.02, 0.03, 0.02)
+def check_that_it_keeps_its_parts(package, obj, move):
+    """Decompose an object and move its mesh: graph, names and what is done next are as if nothing had happened."""
     bpy.ops.reeb_parts.decompose()
     result, names = obj.data.reeb_parts, [part.name for part in obj.data.reeb_parts.parts]
     before, size = graph_places(obj), max(obj.dimensions)
@@ -315,7 +314,43 @@ def test_a_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, obj, move):
     assert bpy.ops.reeb_parts.separate() == {"FINISHED"}
 
 
-def test_a_mesh_that_is_mirrored_or_flattened_or_half_of_a_model_does_not(package, obj, result):
+@pytest.mark.parametrize("move", [apply_transform, set_origin, apply_to_the_mesh])
+def test_a_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, obj, move):
+    """The parts were out of date, and the graph lay about, once the scale was applied."""
+    obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1), (0.02, 0.03, 0.02)
+    check_that_it_keeps_its_parts(package, obj, move)
+
+
+@pytest.mark.parametrize("move", [apply_transform, set_origin, apply_to_the_mesh])
+@pytest.mark.parametrize("far", [0.0, 500.0])
+def test_a_flat_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, make, move, far):
+    """What is off its plane is nowhere, so that Apply counted as an edit."""
+    obj = make(shapes.flat_cells([(x, 0) for x in range(9)] + [(4, y) for y in range(1, 9)]), "Letter")
+    obj.data.transform(Matrix.Translation((far, far, far)) @ Matrix.Rotation(0.7, 4, Vector((1, 2, 3))))
+    obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1), (0.02, 0.03, 0.02)
+    check_that_it_keeps_its_parts(package, obj, move)
+
+
+def test_half_of_a_model_keeps_its_parts_where_its_other_half_is_the_same(package, make):
+    """Apply Scale, which half models need before they are bent or bevelled, counted as an edit."""
+    obj = make(shapes.half_of(shapes.mirrored_figure()), "Figure")
+    obj.modifiers.new("Mirror", "MIRROR")
+    obj.rotation_euler, obj.scale = (0.3, 0.0, 0.0), (2.0, 3.0, 4.0)
+    check_that_it_keeps_its_parts(package, obj, apply_transform)
+    bpy.context.view_layer.objects.active = obj
+    for matrix in (Matrix.Translation((0, 1, 2)), Matrix.Scale(3.0, 4, (1, 0, 0))):
+        obj.data.transform(matrix)
+        assert not rested(package, obj)
+    sheared = Matrix()
+    sheared[1][0] = 0.1
+    for matrix in (Matrix.Translation((1, 0, 0)), Matrix.Rotation(0.1, 4, "Z"), sheared):
+        obj.data.transform(matrix)
+        assert rested(package, obj)
+        obj.data.transform(matrix.inverted())
+        assert not rested(package, obj)
+
+
+def test_a_mesh_that_is_mirrored_or_flattened_or_gets_another_half_does_not(package, obj, result):
     obj.modifiers.new("Mirror", "MIRROR")
     obj.data.transform(Matrix.Translation((1, 0, 0)))
     assert rested(package, obj)
