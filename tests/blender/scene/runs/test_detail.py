@@ -6,6 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+import shapes
 
 
 @pytest.fixture
@@ -219,3 +220,26 @@ def test_what_is_ticked_stays_ticked_while_the_detail_is_dragged(result):
     for detail in (0.6, 0.8, 0.5):
         result.detail = detail
         assert [part.number for part in result.parts if part.selected] == [ticked]
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_steps_are_those_of_each_selected_model(make, obj, package, mode):
+    """Fewer and More changed the active model alone, beside Detail and Parts, which set all."""
+    ball = make(shapes.two_spheres(), "Ball")
+    objects = [obj, ball, make(shapes.tube_tree(6), "Other")]
+    for item in objects:
+        item.select_set(True)
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    ball.data.reeb_parts.n_parts = ball.data.reeb_parts.most
+    expected = [[count for count in levels(item, package) if count > len(item.data.reeb_parts.parts)]
+                for item in objects]
+    most = [len(item.data.reeb_parts.parts) for item in objects]
+    bpy.ops.object.mode_set(mode=mode)
+    assert [len(counts) > 1 for counts in expected] == [True, False, True]
+    for step in range(max(map(len, expected))):
+        bpy.ops.reeb_parts.step_detail(more=True)
+        counts = [([most[i], *expected[i]])[min(step + 1, len(expected[i]))] for i in range(3)]
+        assert [len(item.data.reeb_parts.parts) for item in objects] == counts
+    with pytest.raises(RuntimeError, match="no more parts"):
+        bpy.ops.reeb_parts.step_detail(more=True)
+    assert bpy.context.mode.startswith(mode)
