@@ -123,7 +123,7 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
         named = part_names.kept_names(obj.data)
         names = {number: name for number, name in naming.suggested(obj, stored).items()
                  if number not in named or part_names.lacks_side(named[number], name)}
-        return reactions.give_names(obj.data, names)
+        return reactions.give_names(obj.data, names, given=True)
 
 
 class REEB_PARTS_OT_show_colors(PartOperator, bpy.types.Operator):

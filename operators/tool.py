@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import redraw
+from ..scene import property_updates, redraw, transaction
 from ..scene.changes import reactions
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator, ReportingOperator
@@ -97,7 +97,12 @@ class REEB_PARTS_OT_rename(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         if not self.new_name.strip():
             raise SceneError(rpt_("A part needs a name."))
-        reactions.give_names(obj.data, {part_list.active_number(obj.data): self.new_name.strip()})
+        number = part_list.active_number(obj.data)
+        part = next(entry for entry in obj.data.reeb_parts.parts if entry.number == number)
+        transaction.keep_result(obj.data)
+        with property_updates.quiet():
+            part.name = self.new_name.strip()
+        reactions.take_new_name(part, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return self.attempt(self._ask, context)

@@ -418,8 +418,13 @@ def _part_pieces_(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, num
 
 
 def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: Iterable[int]) -> None:
-    """Let the detail, or the number of parts that was typed, decide about parts again; locked parts stay pinned."""
-    released = list(set(numbers) - set(locked_others(mesh, 0)))
+    """Let the detail, or the number of parts that was typed, decide about parts again; locked parts stay pinned.
+
+    Mirror images, which were pinned together, are released together.
+    """
+    images = part_names.twins(mesh) if context.scene.reeb_parts.symmetry else {}
+    wanted = list(numbers)
+    released = list({*wanted, *(images.get(number, number) for number in wanted)} - set(locked_others(mesh, 0)))
     with property_updates.quiet():
         store.save_numbers(mesh, replace(stored, pinned=np.where(np.isin(stored.pinned, released), 0, stored.pinned)))
     reactions.show(mesh.reeb_parts, context)

@@ -68,35 +68,40 @@ def _other_results(result: bpy.types.PropertyGroup, context: bpy.types.Context) 
 
 @reaction
 def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A part was renamed: its vertex group, its material and its number take the name."""
+    """A part was renamed."""
+    take_new_name(part, context)
+
+
+def take_new_name(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Let all that is called like a part take the name that it was given, and its mirror image the other side's."""
     mesh = part.id_data
     with property_updates.quiet():
         if not part.name.strip():
             part.name = part_names.part_name(mesh, part.number)
         part.name = part_names.free_name(mesh, part.number, part.name)
-        _take_name(part)
+        _take_name(part, given=False)
         twin = part_names.unnamed_twin(part)
         if twin is not None and context.scene.reeb_parts.symmetry:
             twin.name = part_names.free_name(mesh, twin.number, bpy.utils.flip_name(part.name))
-            _take_name(twin)
+            _take_name(twin, given=True)
     for obj in targets.users(mesh):
         graph_objects.update_names(obj)
 
 
-def _take_name(part: bpy.types.PropertyGroup) -> None:
-    """Let the vertex group, the material and the number of a part take its name."""
+def _take_name(part: bpy.types.PropertyGroup, given: bool) -> None:
+    """Let the vertex group, the material and the number of a part take its name. given : nobody typed it."""
     mesh = part.id_data
     users = targets.users(mesh)
     for obj in users[:1]:
         vertex_groups.rename(obj, part, vertex_groups.bones_that_move(users))
     materials.rename(part)
-    part_names.keep_name(mesh, part.number, part.name)
+    part_names.keep_name(mesh, part.number, part.name, given)
 
 
-def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
+def give_names(mesh: bpy.types.Mesh, names: dict[int, str], given: bool = False) -> int:
     """Name parts by number, in the order given; a name that another part has gets a number behind it.
 
-    Of mirror images both get the same number. Returns how many parts were named.
+    Of mirror images both get the same number. Returns how many parts were named. given : nobody has typed these names.
     """
     listed = {part.number: part for part in mesh.reeb_parts.parts}
     known = {number: name for number, name in names.items() if number in listed}
@@ -110,7 +115,7 @@ def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
                 for obj in users[:1]:
                     vertex_groups.rename(obj, part, bones)
                 materials.rename(part)
-                naming.keep(number, part.name)
+                naming.keep(number, part.name, given)
     naming.end()
     for obj in users:
         graph_objects.update_names(obj)

@@ -78,14 +78,15 @@ class Naming:
             self._full[next(iter(names.values()))] = count
         return {number: with_ending(name, count) for number, name in names.items()}
 
-    def keep(self, number: int, name: str) -> None:
-        """Remember the name that a part has now; ``end`` comes after all."""
+    def keep(self, number: int, name: str, given: bool) -> None:
+        """Remember the name that a part has now, and whether nobody typed it; ``end`` comes after all."""
         kept = "" if name == self._own[number] else name
         if number not in self._places and kept:
             self._places[number] = len(self._names)
             self._names.add().number = number
         if number in self._places:
-            self._names[self._places[number]].name = kept
+            entry = self._names[self._places[number]]
+            entry.name, entry.given = kept, given
         self._known[number] = [name, kept]
         self._taken.update(self._known[number])
 
@@ -177,11 +178,11 @@ def with_object(obj: bpy.types.Object, name: str) -> str:
     return name if name.startswith(f"{obj.name} ") else f"{obj.name} {name}"
 
 
-def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:
-    """Remember a name, also while its part is not shown."""
+def keep_name(mesh: bpy.types.Mesh, number: int, name: str, given: bool = False) -> None:
+    """Remember a name, also while its part is not shown. given : nobody typed it, see ``ReebName``."""
     own = own_name(mesh, number)
     if entry := _keep(mesh, number, name != own):
-        entry.name = "" if name == own else name
+        entry.name, entry.given = "" if name == own else name, given
         _drop_empty(mesh.reeb_parts.names)
 
 
@@ -191,13 +192,14 @@ def kept_names(mesh: bpy.types.Mesh) -> dict[int, str]:
 
 
 def unnamed_twin(part: bpy.types.PropertyGroup) -> bpy.types.PropertyGroup | None:
-    """The mirror image of a part in the list, if the user has given it no name and the part's has a side."""
+    """The mirror image of a part in the list, if nobody has typed a name for it and the part's has a side."""
     mirrored = bpy.utils.flip_name(part.own_name)
     if mirrored == part.own_name or bpy.utils.flip_name(part.name) == part.name:
         return None
     mesh = part.id_data
     twin = next((other for other in mesh.reeb_parts.parts if other.own_name == mirrored), None)
-    return None if twin is None or _kept(mesh, twin.number) is not None else twin
+    entry = None if twin is None else _kept(mesh, twin.number)
+    return None if entry is not None and entry.name and not entry.given else twin
 
 
 def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, float] | None) -> None:

@@ -40,6 +40,14 @@ def part(mesh, ending):
     return next(entry for entry in mesh.reeb_parts.parts if entry.name.endswith(ending))
 
 
+def part_named(mesh, name):
+    return next(entry for entry in mesh.reeb_parts.parts if entry.name == name)
+
+
+def pinned(mesh):
+    return {entry.number for entry in mesh.reeb_parts.parts if entry.pinned}
+
+
 def choose(mesh, *parts):
     numbers = [entry.number for entry in parts]
     for index, entry in enumerate(mesh.reeb_parts.parts):
@@ -100,6 +108,45 @@ def test_a_name_with_a_side_is_given_to_the_image_too(mesh):
     right.name = "Hook"
     left.name = "Wing.L"
     assert right.name == "Hook"
+
+
+def test_both_sides_are_released(mesh):
+    """Of a limb that was grown, and its image with it, only the one that was chosen followed the detail again."""
+    left = part(mesh, ".L")
+    number, image = left.number, part_named(mesh, bpy.utils.flip_name(left.name)).number
+    choose(mesh, left)
+    before = face_numbers(mesh)
+    bpy.ops.reeb_parts.grow()
+    assert {number, image} <= pinned(mesh)
+    choose(mesh, part(mesh, ".L"))
+    others = pinned(mesh) - {number, image}
+    part_named(mesh, part(mesh, ".R").name).locked = True
+    bpy.ops.reeb_parts.release()
+    assert pinned(mesh) == others | {image}
+    part_named(mesh, part(mesh, ".R").name).locked = False
+    bpy.ops.reeb_parts.release()
+    assert pinned(mesh) == others
+    assert paired(mesh)
+    bpy.ops.reeb_parts.release(everything=True)
+    assert (face_numbers(mesh) == before).all()
+
+
+def test_a_name_that_is_corrected_is_corrected_on_both_sides(mesh):
+    """Once names were suggested, or one was typed before, the image kept what it was called."""
+    bpy.ops.reeb_parts.suggest_names()
+    left = part(mesh, ".L")
+    right = part_named(mesh, bpy.utils.flip_name(left.name))
+    right.color = (1.0, 0.5, 0.25)
+    for name in ("Wing", "Fin", "Arm"):
+        left.name = f"{name}.L"
+        assert right.name == f"{name}.R"
+    mesh.reeb_parts.active = list(mesh.reeb_parts.parts).index(left)
+    bpy.ops.reeb_parts.rename(new_name="Shield arm.L")
+    assert right.name == "Shield arm.R"
+    right.name = "Sword arm.R"
+    assert left.name == "Shield arm.L"
+    left.name = "Arm.L"
+    assert right.name == "Sword arm.R"
 
 
 @pytest.mark.parametrize("edit", ["split", "grow", "shrink", "merge_neighbour"])
