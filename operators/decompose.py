@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decompose: read, compute, write. The scene is untouched until the result exists."""
 
+from dataclasses import replace
+
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -47,6 +49,10 @@ class REEB_PARTS_OT_decompose(
     bl_label = "Decompose into Parts"
     stage = n_("writing the parts")
 
+    # What the caller has left to the parts that each object shows, while the panel after it still says so.
+    left_detail: bpy.props.FloatProperty(default=-1.0, options={"HIDDEN", "SKIP_SAVE"})
+    left_n_parts: bpy.props.IntProperty(default=-1, options={"HIDDEN", "SKIP_SAVE"})
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if another_window.taken_over() is not None:  # whatever is active by now
@@ -64,29 +70,49 @@ class REEB_PARTS_OT_decompose(
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """From the panel: with the panel's settings, in a process of its own, so that the window stays alive."""
-        self._complete_detail(context)
+        left = self._complete_detail(context)
         defaults.adopt(context.scene)
         fill_in(self, context.scene.reeb_parts, (*PARAMETERS, *HINTS, *OUTPUTS, *OVERLAY))
+        self._leave_detail(left)
         return self.attempt(self._start, context)
 
     def run(self, context: bpy.types.Context) -> None:
         """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences.
 
-        But for the detail, which is that of the parts that the active object shows.
+        But for the detail, which is that of the parts that each object shows, or else that of the active one.
         """
-        self._complete_detail(context)
+        left = self._complete_detail(context)
         defaults.complete(self)
+        self._leave_detail(left)
         parameters, shapes = finished(self._reading(context))
         finished(self._writing(context, jobs.computed(shapes, parameters)))
 
-    def _complete_detail(self, context: bpy.types.Context) -> None:
-        """Take over former names, and how many parts are shown where a caller gives neither detail nor number."""
+    def _complete_detail(self, context: bpy.types.Context) -> bool:
+        """Take over former names, and how many parts the active object shows where a caller gives neither detail nor
+        number; whether that is so.
+        """
         for note in take_over_former_names(self.properties):
             self.report({"INFO"}, note)
         given = self.properties.is_property_set
-        if not given("detail") and not given("n_parts"):
+        left = not given("detail") and not given("n_parts")
+        if left:
             for name, value in results.detail_of(targets.active_object(context)).items():
                 setattr(self, name, value)
+        return left
+
+    def _leave_detail(self, left: bool) -> None:
+        """Remember what stands for the detail of each object, if the caller has left that to them."""
+        if left:
+            self.left_detail, self.left_n_parts = self.detail, self.n_parts
+
+    def _as_shown(self, outcome: Outcome) -> Outcome:
+        """The outcome for an object at the detail that it shows, unless another one is asked for."""
+        asked = (self.detail, self.n_parts) != (self.left_detail, self.left_n_parts)
+        shown = {} if asked else results.detail_of(bpy.data.objects[outcome.object_name, None])
+        found = outcome.decomposition
+        if found is None or not shown:
+            return outcome
+        return replace(outcome, decomposition=found.asked(replace(found.parameters, **shown)))
 
     def draw(self, context: bpy.types.Context) -> None:
         """The redo panel: how many parts, and what differs from the defaults."""
@@ -110,6 +136,7 @@ class REEB_PARTS_OT_decompose(
 
     def _writing(self, context: bpy.types.Context, outcomes: list[Outcome]) -> Steps[None]:
         """Write what was computed and report on it."""
+        outcomes = [self._as_shown(outcome) for outcome in outcomes]
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
             raise SceneError(translated(outcomes[0].problem))

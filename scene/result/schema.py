@@ -61,7 +61,7 @@ class ReebName(bpy.types.PropertyGroup):
     """A name or a color that the user gave to a part, kept while the part is not shown."""
 
     name: StringProperty(description="Empty: the part's own")
-    given: BoolProperty(description="The name was suggested, or came with that of the mirror image; nobody typed it")
+    given: BoolProperty()  # the name was suggested, or came with that of the mirror image; nobody typed it
     number: IntProperty()
     has_color: BoolProperty()
     color: FloatVectorProperty(subtype="COLOR_GAMMA", size=3)

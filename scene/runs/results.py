@@ -44,7 +44,8 @@ def detail_of(obj: bpy.types.Object | None) -> dict[str, float | int]:
     if obj is None or not store.has_parts(obj):
         return {}
     result = obj.data.reeb_parts
-    return {"detail": result.detail, "n_parts": result.n_parts if result.by_number else 0}
+    # Blender stores 0.05 as 0.05000000074505806.
+    return {"detail": float(f"{result.detail:.6g}"), "n_parts": result.n_parts if result.by_number else 0}
 
 
 def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> int:

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from snapshot import activate
 
 
 @pytest.fixture
@@ -243,3 +244,34 @@ def test_steps_are_those_of_each_selected_model(make, obj, package, mode):
     with pytest.raises(RuntimeError, match="no more parts"):
         bpy.ops.reeb_parts.step_detail(more=True)
     assert bpy.context.mode.startswith(mode)
+
+
+def test_each_of_several_models_keeps_its_detail(make, obj):
+    """All got that of the active one, and that of new models where this had no parts yet."""
+    objects = [obj, make(shapes.tube_tree(6), "Six"), make(shapes.tube_tree(5), "Five")]
+    for item, wanted in zip(objects, ({"n_parts": 2}, {"detail": 0.8}, {"detail": 0.1}), strict=True):
+        activate(item)
+        bpy.ops.reeb_parts.decompose(**wanted)
+    before = [(len(item.data.reeb_parts.parts), item.data.reeb_parts.detail) for item in objects]
+    assert len({count for count, _ in before}) == 3
+    new = make(shapes.two_spheres(), "New")
+    for active in (obj, objects[1], new):
+        for item in (*objects, new):
+            item.select_set(True)
+            edit(item.data)
+        bpy.context.view_layer.objects.active = active
+        bpy.ops.reeb_parts.decompose()
+        counts, details = zip(*[(len(item.data.reeb_parts.parts), item.data.reeb_parts.detail) for item in objects],
+                              strict=True)
+        assert counts[0] == before[0][0]
+        assert details[1:] == pytest.approx([detail for _, detail in before[1:]])
+    bpy.ops.reeb_parts.decompose(detail=0.3)
+    assert [item.data.reeb_parts.detail for item in (*objects, new)] == pytest.approx([0.3] * 4)
+    # As the panel after the press does, which repeats it with what it shows: another setting changes no detail.
+    shown = {"detail": obj.data.reeb_parts.detail, "n_parts": 0}
+    objects[1].data.reeb_parts.n_parts = 7
+    left = {"left_detail": shown["detail"], "left_n_parts": 0}
+    bpy.ops.reeb_parts.decompose(**shown, **left, symmetry=False)
+    assert objects[1].data.reeb_parts.n_parts == 7
+    bpy.ops.reeb_parts.decompose(**{**shown, "detail": 0.6}, **left)
+    assert [item.data.reeb_parts.detail for item in (*objects, new)] == pytest.approx([0.6] * 4)
