@@ -112,7 +112,8 @@ class REEB_PARTS_OT_decompose(
         found = outcome.decomposition
         if found is None or not shown:
             return outcome
-        return replace(outcome, decomposition=found.asked(replace(found.parameters, **shown)))
+        parameters = replace(found.parameters, detail=float(shown["detail"]), n_parts=int(shown["n_parts"]))
+        return replace(outcome, decomposition=found.asked(parameters))
 
     def draw(self, context: bpy.types.Context) -> None:
         """The redo panel: how many parts, and what differs from the defaults."""
