@@ -93,7 +93,7 @@ def _take_name(part: bpy.types.PropertyGroup, given: bool) -> None:
     mesh = part.id_data
     users = targets.users(mesh)
     for obj in users[:1]:
-        vertex_groups.rename(obj, part, vertex_groups.bones_that_move(users))
+        vertex_groups.rename(obj, part, vertex_groups.taken_names(users))
     materials.rename(part)
     part_names.keep_name(mesh, part.number, part.name, given)
 
@@ -106,14 +106,14 @@ def give_names(mesh: bpy.types.Mesh, names: dict[int, str], given: bool = False)
     listed = {part.number: part for part in mesh.reeb_parts.parts}
     known = {number: name for number, name in names.items() if number in listed}
     naming, users = part_names.Naming(mesh), targets.users(mesh)
-    bones = vertex_groups.bones_that_move(users)
+    taken = vertex_groups.taken_names(users)
     with property_updates.quiet():
         for together in part_names.in_pairs(mesh, known):
             for number, name in naming.free(together).items():
                 part = listed[number]
                 part.name = name
                 for obj in users[:1]:
-                    vertex_groups.rename(obj, part, bones)
+                    vertex_groups.rename(obj, part, taken)
                 materials.rename(part)
                 naming.keep(number, part.name, given)
     naming.end()

@@ -183,21 +183,23 @@ def _new_groups(obj: bpy.types.Object, found: Skeleton) -> list[str]:
     transaction.keep_mesh(mesh)
     transaction.keep_keys(mesh, mesh_groups.WEIGHTS, mesh_groups.MADE)
     active = obj.vertex_groups.active_index
-    wanted = _sided_names(obj, found) if found.is_half else [part_names.fitted(DEFORM + name) for name in found.names]
+    attributes = set(mesh.attributes.keys())  # which a group of the same name would replace in Edit Mode
+    wanted = _sided_names(obj, found, attributes) if found.is_half else [
+        part_names.distinct(DEFORM + name, attributes) for name in found.names]
     names = [obj.vertex_groups.new(name=name).name for name in wanted]
     obj.vertex_groups.active_index = max(active, 0)
     mesh[mesh_groups.WEIGHTS] = json.dumps(names)
     return names
 
 
-def _sided_names(obj: bpy.types.Object, found: Skeleton) -> list[str]:
+def _sided_names(obj: bpy.types.Object, found: Skeleton, others: set[str]) -> list[str]:
     """Names of groups for a half model: those of images are each other's flipped, as the Mirror modifier flips them.
 
-    It does so only if both groups are there, be they empty.
+    It does so only if both groups are there, be they empty. others : names that none of them gets.
     """
     taken, names = set(), list(found.names)
-    for group in obj.vertex_groups:
-        taken |= {group.name, bpy.utils.flip_name(group.name)}
+    for name in {*obj.vertex_groups.keys(), *others}:
+        taken |= {name, bpy.utils.flip_name(name)}
     for bone, image in enumerate(found.twin.tolist()):
         if image < bone:
             names[bone] = bpy.utils.flip_name(names[image])

@@ -9,7 +9,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from .. import targets
 from ..reading import mesh_arrays
+from ..result import part_names
 
 #: How the names of all attributes begin in which values of the user are kept aside.
 PREFIX = ".reeb_former"
@@ -26,7 +28,9 @@ def add_attribute(mesh: bpy.types.Mesh, known: str, name: str, kind: str, domain
     if find_attribute(mesh, known, kind, domain) is not None:
         return known
     index = mesh.attributes.active_index
-    name = mesh.attributes.new(name, kind, domain).name
+    # With the name of a vertex group, Blender 4 makes none.
+    groups = {name for obj in targets.users(mesh)[:1] for name in obj.vertex_groups.keys()}  # noqa: SIM118
+    name = mesh.attributes.new(part_names.distinct(name, groups.union(mesh.attributes.keys())), kind, domain).name
     mesh.attributes.active_index = index
     return name
 

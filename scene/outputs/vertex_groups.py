@@ -121,8 +121,8 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
     if not obj.data.reeb_parts.has_groups:
         return
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
-    bones = bones_that_move(targets.users(obj.data))
-    _take_names(obj, bones)
+    taken = taken_names(targets.users(obj.data))
+    _take_names(obj, taken)
     groups = {group.name: group for group in obj.vertex_groups}  # to look a name up there goes through all of them
     fresh = [number for number, part in parts.items() if part.group not in groups]
     after = numbered.candidate_numbers
@@ -137,7 +137,7 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
         part = parts[number]
         group = groups.get(part.group)
         if group is None:
-            group = obj.vertex_groups.new(name=part_names.distinct(part.name, bones))
+            group = obj.vertex_groups.new(name=part_names.distinct(part.name, taken))
             part.group = group.name
         if number in gone:
             group.remove(gone[number].tolist())
@@ -183,25 +183,39 @@ def bones_that_move(objects: list[bpy.types.Object], ours: bool = False) -> set[
             and (ours or made_objects.ROLE not in rig) for bone in rig.data.bones if bone.use_deform}
 
 
-def _take_names(obj: bpy.types.Object, bones: Container[str]) -> None:
+def taken_names(objects: list[bpy.types.Object]) -> set[str]:
+    """Names that none of our groups gets: those of bones that move some objects, and of attributes of their mesh.
+
+    Where a group has the name of an attribute, as of a UV map, Blender 5 drops the attribute when Edit Mode is entered,
+    and nodes of older ones are given the group in its place.
+    """
+    return bones_that_move(objects).union(*(obj.data.attributes.keys() for obj in objects[:1]))
+
+
+def _take_names(obj: bpy.types.Object, taken: Container[str]) -> None:
     """Give the groups that are there the names of their parts, which may have been those of each other."""
     there = set(obj.vertex_groups.keys())
-    wrong = [part for part in obj.data.reeb_parts.parts if part.group != part.name and part.group in there]
+    wrong = [part for part in obj.data.reeb_parts.parts if part.group in there and _is_misnamed(obj, part)]
     for part in wrong:
         group = obj.vertex_groups[part.group]
         group.name = "\1Reeb Parts"  # no name is in the way of another one
         part.group = group.name
     for part in wrong:
-        rename(obj, part, bones)
+        rename(obj, part, taken)
 
 
-def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup, bones: Container[str]) -> None:
+def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup, taken: Container[str]) -> None:
     """Give the part's vertex group the part's name, or the nearest that is free.
 
-    bones : names that bones_that_move() the objects of the mesh have, which none of our groups gets.
+    taken : the taken_names() of the objects of the mesh.
     """
     transaction.keep_mesh(obj.data)
-    if part.group in obj.vertex_groups and part.group != part.name:
+    if part.group in obj.vertex_groups and _is_misnamed(obj, part):
         group = obj.vertex_groups[part.group]
-        group.name = part_names.distinct(part.name, bones)
+        group.name = part_names.distinct(part.name, taken)
         part.group = group.name
+
+
+def _is_misnamed(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> bool:
+    """Whether the part's vertex group has not the part's name, or that of an attribute, as one of an older file may."""
+    return part.group != part.name or part.group in obj.data.attributes

@@ -394,6 +394,51 @@ def test_no_group_of_ours_has_the_name_of_a_bone_that_moves_the_model(obj):
     assert obj.vertex_groups.keys() == ["held"]
 
 
+@pytest.mark.parametrize("older", [False, True])
+def test_no_group_of_ours_has_the_name_of_an_attribute(obj, older):
+    """Blender 5 dropped the user's map or attribute once Edit Mode was entered, as one of an older file, too."""
+    mesh = obj.data
+    maps = np.random.default_rng(1).random((2, len(mesh.loops), 2), np.float32)
+    faces = np.arange(len(mesh.polygons), dtype=np.int32)
+    names = ["Part 01", "head", "DEF-Part 01"]
+    mesh.uv_layers.new(name="head").uv.foreach_set("vector", maps[0].ravel())
+    mesh.uv_layers.new(name="DEF-Part 01").uv.foreach_set("vector", maps[1].ravel())
+    mesh.attributes.new("Part 01", "INT", "FACE").data.foreach_set("value", faces)
+    bpy.ops.reeb_parts.decompose()
+    parts = mesh.reeb_parts.parts
+    parts[1].name = "head"
+    if older:  # the groups have the names of the parts
+        for part in parts[:2]:
+            obj.vertex_groups[part.group].name = part.name
+            part.group = part.name
+        mesh.reeb_parts.detail = 0.9
+    assert [part.group for part in parts][:2] == ["Part 01.001", "head.001"]
+    bpy.ops.reeb_parts.armature()
+    assert not set(obj.vertex_groups.keys()) & set(mesh.attributes.keys())
+    for mode in ("EDIT", "OBJECT"):
+        bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.reeb_parts.clear()
+    assert obj.vertex_groups.keys() == []
+    assert sorted(set(names) & set(mesh.attributes.keys())) == sorted(names)
+    assert read(mesh.attributes["Part 01"].data, "value", np.int32).tolist() == faces.tolist()
+    for name, values in zip(names[1:], maps, strict=True):
+        assert np.array_equal(read(mesh.uv_layers[name].uv, "vector", width=2), values)
+
+
+def test_an_attribute_of_ours_that_was_made_a_vertex_group_is_the_users(obj):
+    """Blender 4 makes no attribute of the name of a group: Decompose ended with an AttributeError."""
+    bpy.ops.reeb_parts.decompose()
+    mesh = obj.data
+    mesh.attributes.active = mesh.attributes["reeb_part"]
+    bpy.ops.geometry.attribute_convert(mode="VERTEX_GROUP")
+    bpy.ops.reeb_parts.decompose()
+    assert mesh.reeb_parts.face_attribute == "reeb_part.001"
+    assert "reeb_part.001" in mesh.attributes
+    bpy.ops.reeb_parts.clear()
+    assert obj.vertex_groups.keys() == ["reeb_part"]
+    assert not [name for name in mesh.attributes.keys() if name.startswith("reeb")]  # noqa: SIM118
+
+
 def seen_vertices(obj):
     """Where the vertices are with all modifiers."""
     bpy.context.view_layer.update()
