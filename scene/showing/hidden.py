@@ -19,6 +19,9 @@ NAME = "Reeb Parts Hide"
 ATTRIBUTE = "reeb_hidden"  # of faces
 OURS = "reeb_parts_hide"  # on the node group
 _KEPT = f"{PREFIX}_hidden"  # which of these faces the user had hidden before
+# What the user had hidden before we hid anything: faces do not tell which of their edges and vertices were.
+_FIRST = {"polygons": (f"{PREFIX}_hide_poly", "FACE"), "edges": (f"{PREFIX}_hide_edge", "EDGE"),
+          "vertices": (f"{PREFIX}_hide_vert", "POINT")}
 
 
 def hide(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
@@ -33,6 +36,7 @@ def isolate(mesh: bpy.types.Mesh, shown: np.ndarray) -> None:
 
 def _leave_out(mesh: bpy.types.Mesh, ours: np.ndarray, every: np.ndarray) -> None:
     """Hide some faces, (p,) bool, in Edit Mode and those of ours in Object Mode, too."""
+    _keep_first(mesh)
     users = _hidden_by_user(mesh) & ours
     selection.hide_faces(mesh, every)
     if not ours.any():
@@ -73,14 +77,53 @@ def forget_faces(mesh: bpy.types.Mesh) -> None:
     """Show in all modes the faces that the modifiers left out, now that there are none, but for the user's."""
     transaction.keep_mesh(mesh)
     if find_attribute(mesh, ATTRIBUTE, "BOOLEAN", "FACE"):
-        selection.hide_faces(mesh, _hidden_by_user(mesh))
+        first = _first(mesh)
+        if first and _is_as_we_left_it(mesh, first["polygons"]):
+            selection.hide_elements(mesh, first)
+        else:
+            selection.hide_faces(mesh, _hidden_by_user(mesh))
     remove_attributes(mesh)
+
+
+def _keep_first(mesh: bpy.types.Mesh) -> None:
+    """Keep aside what the user has hidden, if we hide nothing yet; forget it once the user has hidden more."""
+    transaction.keep_mesh(mesh)
+    first = _first(mesh)
+    if find_attribute(mesh, ATTRIBUTE, "BOOLEAN", "FACE"):
+        if first and not _is_as_we_left_it(mesh, first["polygons"]):
+            _remove_first(mesh)
+        return
+    _remove_first(mesh)
+    hidden = selection.hidden_elements(mesh)
+    if any(values.any() for values in hidden.values()):
+        for items, (name, domain) in _FIRST.items():
+            keep_aside(mesh, hidden[items], name, "BOOLEAN", domain)
+
+
+def _first(mesh: bpy.types.Mesh) -> dict[str, np.ndarray]:
+    """What the user had hidden at first, see selection.hidden_elements; empty if nothing, or if it is not known."""
+    found = {items: find_attribute(mesh, name, "BOOLEAN", domain) for items, (name, domain) in _FIRST.items()}
+    return {items: mesh_arrays.attribute_values(kept) for items, kept in found.items() if kept} if all(
+        found.values()) else {}
+
+
+def _is_as_we_left_it(mesh: bpy.types.Mesh, first: np.ndarray) -> bool:
+    """Whether those faces are hidden that we have hidden, beside the user's first ones, (p,) bool, or alone."""
+    ours, now = _ours(mesh), selection.hidden_faces(mesh)
+    return np.array_equal(now, ours) or np.array_equal(now, ours | first)
 
 
 def remove_attributes(mesh: bpy.types.Mesh) -> None:
     """Remove what tells on a mesh which faces we hide."""
     for name in (ATTRIBUTE, _KEPT):
         if find_attribute(mesh, name, "BOOLEAN", "FACE"):
+            remove_attribute(mesh, name)
+    _remove_first(mesh)
+
+
+def _remove_first(mesh: bpy.types.Mesh) -> None:
+    for name, domain in _FIRST.values():
+        if find_attribute(mesh, name, "BOOLEAN", domain):
             remove_attribute(mesh, name)
 
 

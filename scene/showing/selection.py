@@ -48,6 +48,16 @@ def hide_faces(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
     _set_flags(mesh, "hide", mask, ~edges & some, ~vertices & some)
 
 
+def hidden_elements(mesh: bpy.types.Mesh) -> dict[str, np.ndarray]:
+    """Whether each face, edge and vertex is hidden, by the name of the collection; Object Mode."""
+    return {items: mesh_arrays.element_values(mesh, items, "hide") for items in ("polygons", "edges", "vertices")}
+
+
+def hide_elements(mesh: bpy.types.Mesh, hidden: dict[str, np.ndarray]) -> None:
+    """Hide what was hidden when ``hidden_elements`` was asked; Object Mode."""
+    _set_flags(mesh, "hide", hidden["polygons"], hidden["edges"], hidden["vertices"])
+
+
 def _touched(mesh: bpy.types.Mesh, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The edges and the vertices of some faces, (e,) and (v,) bool."""
     vertex, face = mesh_arrays.face_corners(mesh)

@@ -3,10 +3,12 @@
 
 import importlib
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 import shapes
+from bulk import read
 from results import numbers
 from snapshot import changes, snapshot
 
@@ -225,3 +227,45 @@ def test_no_piece_of_an_arc_has_the_color_of_a_hidden_part(obj, result, package,
         own = {tuple(part.color[:3])}
         assert drawn <= (colors - own if way == "hide" else own)
         bpy.ops.reeb_parts.isolate(show_all=True)
+
+
+@pytest.mark.parametrize("again", [False, True])
+@pytest.mark.parametrize("way", ["hide", "isolate"])
+@pytest.mark.parametrize("kind", ["verts", "edges", "faces"])
+def test_clear_hides_what_was_hidden_before_to_the_edge(obj, kind, way, again):
+    """Of what was hidden by vertices or edges, others were hidden then, and nothing of what was isolated was."""
+    mesh = obj.data
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    loose = [bm.verts.new((x, 5.0, 5.0)) for x in (0.0, 1.0, 2.0)]
+    bm.edges.new(loose[:2])
+    for element in list(getattr(bm, kind))[::7]:
+        element.hide_set(True)
+    loose[2].hide_set(True)
+    bm.to_mesh(mesh)
+    bm.free()
+    before = [read(items, "hide", bool).tolist() for items in (mesh.polygons, mesh.edges, mesh.vertices)]
+    names = sorted(mesh.attributes.keys())
+    bpy.ops.reeb_parts.decompose()
+    choose(mesh.reeb_parts, 1)
+    getattr(bpy.ops.reeb_parts, way)()
+    if again:
+        choose(mesh.reeb_parts, 2)
+        bpy.ops.reeb_parts.hide()
+        bpy.ops.reeb_parts.isolate()
+    bpy.ops.reeb_parts.clear()
+    assert [read(items, "hide", bool).tolist() for items in (mesh.polygons, mesh.edges, mesh.vertices)] == before
+    assert sorted(mesh.attributes.keys()) == names
+
+
+def test_what_is_hidden_by_hand_meanwhile_stays_hidden_after_clear(obj, result):
+    mesh = obj.data
+    mesh.polygons[0].hide = True
+    number = choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    other = next(face for face in range(1, len(mesh.polygons)) if numbers(mesh)[face] != number)
+    mesh.polygons[other].hide = True
+    choose(result, 2)
+    bpy.ops.reeb_parts.hide()
+    bpy.ops.reeb_parts.clear()
+    assert np.flatnonzero(read(mesh.polygons, "hide", bool)).tolist() == [0, other]
