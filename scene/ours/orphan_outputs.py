@@ -71,7 +71,7 @@ def _remove_joined(obj: bpy.types.Object) -> bool:
     transaction.keep_mesh(mesh)
     joined = bool(materials.of_others(mesh))
     if _one_color_each(mesh, numbers):
-        joined |= _remove_groups(obj, numbers)
+        joined |= _remove_groups(obj, numbers) | face_sets.came_by_join(mesh, numbers)
         if joined:  # else the faces may be extruded ones of the mesh itself
             face_sets.take_back(mesh, numbers)
         seams.take_back(mesh, numbers > 0)

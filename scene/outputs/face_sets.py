@@ -57,12 +57,37 @@ def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
         if _KEPT in mesh.attributes:
             before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
         if _are_of_parts(now, numbers):
-            now = np.where(numbers > 0, before, now)
+            others = now[numbers == 0]
+            if _are_ours(mesh):  # what comes back of these then
+                others = before[numbers == 0] if mesh.reeb_parts.had_face_sets else np.ones_like(others)
+            now = np.where(numbers > 0, _apart(before, numbers > 0, others), now)
             mesh.attributes[NAME].data.foreach_set("value", now)
         if not _are_ours(mesh) and (now <= 1).all():  # one set is none
             remove_attribute(mesh, NAME)
     if not _are_ours(mesh):
         remove_attribute(mesh, _KEPT)
+
+
+def _apart(sets: np.ndarray, joined: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """The face sets of faces that were joined, (p,) bool, raised as by Blender's Join so that other faces have none.
+
+    sets : (p,) int32. others : (k,) int32, those of the other faces; 1 at most where there are none.
+    """
+    own = sets[joined]
+    shared = np.isin(own, others).any() and max(own.max(), others.max()) > 1
+    return sets + others.max() if shared else sets
+
+
+def came_by_join(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
+    """Whether faces have face sets of the parts of another mesh, which Blender's Join has raised.
+
+    numbers : (p,) int32, of the parts of these faces, 0 for others.
+    """
+    sets = find_attribute(mesh, NAME, "INT", "FACE")
+    if sets is None:
+        return False
+    now = mesh_arrays.read(sets.data, "value", np.int32)
+    return _are_of_parts(now, numbers) and bool((now != numbers)[numbers > 0].any())
 
 
 def keep(mesh: bpy.types.Mesh, new: np.ndarray, numbers: np.ndarray) -> None:

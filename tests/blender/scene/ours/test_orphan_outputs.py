@@ -141,3 +141,31 @@ def test_attributes_of_the_user_that_are_called_as_ours_stay(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.clear()
     assert snapshot() == before
+
+
+if bpy.app.version >= (5, 0):  # Join of Blender 4 itself makes one of several face sets
+
+    @pytest.mark.parametrize("owners", [("Into",), ("Tree",), ("Into", "Tree")])
+    @pytest.mark.parametrize("decomposed", [("Tree",), ("Into", "Tree")])
+    def test_face_sets_of_the_user_are_as_apart_after_join_as_without_us(make, decomposed, owners):
+        """Those of the one were one with those of the other, or the parts of the one were left in their place."""
+        groups = []
+        for with_us in (False, True):
+            objects = {"Into": make(shapes.dumbbell(24, 10), "Into"), "Tree": make(shapes.tube_tree(), "Tree")}
+            for name, obj in objects.items():
+                if name in owners:
+                    sets = obj.data.attributes.new(".sculpt_face_set", "INT", "FACE")
+                    sets.data.foreach_set("value", np.arange(len(sets.data), dtype=np.int32) % 3 + 1)
+                if with_us and name in decomposed:
+                    activate(obj)
+                    bpy.ops.reeb_parts.decompose(graph=False, face_sets=True)
+            into = objects["Into"]
+            activate(into)
+            objects["Tree"].select_set(True)
+            bpy.ops.object.join()
+            if with_us:
+                bpy.ops.reeb_parts.clear()
+            groups.append(np.array([item.value for item in into.data.attributes[".sculpt_face_set"].data]))
+            bpy.context.view_layer.update()
+        pairs = set(zip(*(sets.tolist() for sets in groups), strict=True))
+        assert len(pairs) == len(set(groups[0].tolist())) == len(set(groups[1].tolist())) > 3
