@@ -27,6 +27,8 @@ _TOPOLOGY = {".edge_verts", ".corner_vert", ".corner_edge"}
 # Attributes that are read in other ways.
 _OTHERWISE = _TOPOLOGY if bpy.app.version < (5, 3, 0) else {
     *_TOPOLOGY, "skin_modifier_radius", "skin_modifier_root", "skin_modifier_loose"}
+# What from_pydata of Blender 5.0 makes instead of one of BOOLEAN; nothing can be read from it, nor written to it.
+_WITHOUT_VALUES = (".select_edge", "INT32_2D")
 _ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
 _WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
 _SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1))
@@ -35,7 +37,7 @@ _SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1
 def read(mesh: bpy.types.Mesh, n_groups: int | None = None) -> Elements:
     """The elements of a mesh in Object Mode, with all that they carry. n_groups : of vertex groups, where known."""
     layers = {a.name: Layer(a.data_type, a.domain, mesh_arrays.attribute_values(a))
-              for a in mesh.attributes if a.name not in _OTHERWISE}
+              for a in mesh.attributes if a.name not in _OTHERWISE and (a.name, a.data_type) != _WITHOUT_VALUES}
     for index, key in enumerate(mesh.shape_keys.key_blocks if mesh.shape_keys else ()):
         layers[f"\0{KEY} {index}"] = Layer(KEY, POINT, mesh_arrays.key_points(key))
     for layer in mesh.skin_vertices:
