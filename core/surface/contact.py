@@ -27,6 +27,7 @@ MAX_POINTS = 8_000  # of a denser surface so many are taken
 # Pairs of points near each other that are looked at one by one, and how many more for each label that would be
 # searched otherwise.
 MAX_PAIRS, MORE_PAIRS = 2_000_000, 1_000
+COUNTED = 400  # points around which it is counted how many others are near
 FEW_LABELS = 24  # up to so many it is faster to search the nearest of each than to look at all pairs of points
 FAR_POINTS = 1_500  # to look farther than NEAR, where all pairs of points are compared in the end
 # Of links from which on pieces that hang together are one to those who look farther: between thousands of pieces there
@@ -117,7 +118,9 @@ def _near_points(position: np.ndarray, label: np.ndarray, radius: float) -> np.n
     if n_labels <= FEW_LABELS:
         return _nearest_of_each_label(position, label, radius)
     tree = cKDTree(position)
-    if tree.count_neighbors(tree, radius) > MAX_PAIRS + MORE_PAIRS * n_labels:
+    every = max(len(position) // COUNTED, 1)  # to count all takes longer than to find them
+    n_pairs = every * tree.query_ball_point(position[::every], radius, return_length=True).sum()
+    if n_pairs > MAX_PAIRS + MORE_PAIRS * n_labels:
         return _nearest_of_each_label(position, label, radius)
     found = tree.query_pairs(radius, output_type="ndarray")
     found = found[label[found[:, 0]] != label[found[:, 1]]]
