@@ -31,8 +31,7 @@ MAX_EDGE = 0.5 * np.sqrt(0.005)
 # Refinement stops when it has multiplied the number of faces by this factor: needles (long, thin triangles) become
 # too many, and a coarser copy is better.
 MAX_GROWTH = 4
-MIN_BUDGET = 50_000  # number of faces up to which refinement of a single body never stops early
-ALL_BUDGETS = 25_000  # number of faces that several bodies share for that
+MIN_BUDGET = 25_000  # number of faces up to which it never stops early; several bodies share them
 # A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
@@ -119,7 +118,7 @@ class Component:
             ordering = Ordering.of(part, polygon, len(names), rank[index])
             mesh, triangle = ordering.sorted(part, polygon)
             source, faces = source[index][ordering.vertex], faces[triangle]
-        fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area), min(MIN_BUDGET, ALL_BUDGETS // n_bodies))
+        fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area), MIN_BUDGET // n_bodies)
         added = np.full(fine.n_vertices - len(source), -1)
         return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
                    bridges(fine, connected))

@@ -7,7 +7,7 @@ import shapes
 
 from core.mesh.polygons import PolygonMesh
 from core.mesh.triangles import TriMesh
-from core.surface.preparation import _separate_fans, repair, split_long_edges, worth_cutting
+from core.surface.preparation import MAX_EDGE, _separate_fans, bodies, repair, split_long_edges, worth_cutting
 
 
 def repaired(shape, polygon=None):
@@ -217,6 +217,14 @@ def test_needles_do_not_multiply_past_bounds():
     fine, _ = split_long_edges(mesh, 1e-4)
     assert fine.n_faces < 4 * 50_000
     assert fine.area == pytest.approx(mesh.area)
+
+
+def test_a_body_alone_has_the_whole_budget():
+    """It had half of what its constant said, once several bodies were to share less than that."""
+    working = repaired(shapes.box((100, 1, 0.3)))
+    (body,) = bodies(working, True, 0.01)
+    fine, _ = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+    assert body.mesh.n_faces == fine.n_faces
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
