@@ -21,9 +21,9 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.clear"
     bl_label = "Clear Parts"
     bl_description = n_("Remove everything that Reeb Parts has added to the selected meshes; what was there before is "
-                        "back. A UV map that you have changed or renamed stays, and so do weights of the armature that "
-                        "you have changed, and the objects made of parts: separated pieces, as your own that do not "
-                        "lead back to the mesh, hulls and armatures")
+                        "back. A UV map that you have changed or renamed stays, and so do colors that you have painted "
+                        "on, weights of the armature that you have changed, and the objects made of parts: separated "
+                        "pieces, as your own that do not lead back to the mesh, hulls and armatures")
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
@@ -40,6 +40,9 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
                 if left.uv_map:
                     self.report({"INFO"}, rpt_("{name}: the UV map {map} was changed by hand and stays").format(
                         name=obj.name, map=left.uv_map))
+                if left.colors:
+                    self.report({"INFO"}, rpt_("{name}: the colors {attribute} were painted on and stay").format(
+                        name=obj.name, attribute=left.colors))
                 if left.weights:
                     self.report({"INFO"}, rpt_("{name}: weights of the armature were changed by hand and stay").format(
                         name=obj.name))

@@ -10,6 +10,7 @@ from ...core.uses.colors import linear
 from .. import targets
 from ..modes import call_with
 from ..reading import mesh_arrays
+from ..result import part_names
 from .kept_aside import add_attribute, remove_attribute
 
 NAME = "Reeb Parts"
@@ -54,6 +55,31 @@ def remove(obj: bpy.types.Object) -> None:
             mesh.attributes.default_color_name = result.former_render_color
         remove_attribute(mesh, ours)
     result.color_attribute = result.former_color = result.former_render_color = ""
+
+
+def hand_over_painted(mesh: bpy.types.Mesh) -> str:
+    """Let our color attribute be the user's once it was painted on; Object Mode.
+
+    Blender paints on it, as it is the active one. Of a mesh that has other counts than it was decomposed with it is not
+    told: edits mix colors of neighbors, which looks like paint.
+
+    Returns the name of the attribute that stays, or "".
+    """
+    attribute, result = find(mesh), mesh.reeb_parts
+    if attribute is None or (len(mesh.vertices), len(mesh.polygons)) != (result.n_vertices, result.n_faces):
+        return ""
+    ours = _bytes(part_names.number_colors(mesh))
+    if np.isin(_bytes(mesh_arrays.read(attribute.data, "color_srgb", np.float32, 4)), ours).all():
+        return ""
+    name = result.color_attribute
+    result.color_attribute = result.former_color = result.former_render_color = ""
+    return name
+
+
+def _bytes(colors: np.ndarray) -> np.ndarray:
+    """Colors as Blender stores them, each as one number, (k,) uint32. colors : (k, 4) float32."""
+    stored = np.floor(255.0 * np.clip(colors, 0.0, 1.0) + 0.5).astype(np.uint8)
+    return np.ascontiguousarray(stored).view(np.uint32)[:, 0]
 
 
 def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed: np.ndarray | None = None) -> None:

@@ -17,7 +17,7 @@ from ..errors import SceneError
 from ..graph import graph_finding, graph_objects, graph_removal
 from ..moving import armature
 from ..ours import orphan_outputs
-from ..outputs import uv_map
+from ..outputs import colors, uv_map
 from ..result import notes
 from ..showing import explode, hidden
 from . import succession
@@ -130,9 +130,10 @@ def _keep_colors(mesh: bpy.types.Mesh) -> None:
 
 
 class Left(NamedTuple):
-    """What stays, as it was changed by hand: the name of the UV map along cuts, or ""; the weights of the armature."""
+    """What stays, as it was changed by hand: our UV map and colors by name, or ""; the weights of the armature."""
 
     uv_map: str
+    colors: str
     weights: bool
 
 
@@ -147,6 +148,7 @@ def clear(obj: bpy.types.Object) -> Left:
     hidden.forget_faces(obj.data)
     weights_stay = armature.clear(obj.data)
     map_that_stays = uv_map.remove(obj.data)
+    colors_that_stay = colors.hand_over_painted(obj.data)
     outputs.remove_outputs(obj)
     transaction.unset_group(obj.data, "reeb_parts")
-    return Left(map_that_stays, weights_stay)
+    return Left(map_that_stays, colors_that_stay, weights_stay)

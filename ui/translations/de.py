@@ -480,12 +480,13 @@ TEXTS = {
         "Das ausgewählte Mesh in die Teile zerlegen, die ein Mensch benennen würde, und seinen Reeb-Graphen zeigen",
     "Stop computing; the scene is as it was before": "Die Berechnung beenden; die Szene ist wie zuvor",
     "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back. A UV map that "
-    "you have changed or renamed stays, and so do weights of the armature that you have changed, and the objects made "
-    "of parts: separated pieces, as your own that do not lead back to the mesh, hulls and armatures":
+    "you have changed or renamed stays, and so do colors that you have painted on, weights of the armature that you "
+    "have changed, and the objects made of parts: separated pieces, as your own that do not lead back to the mesh, "
+    "hulls and armatures":
         "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da. "
-        "Eine UV-Map, die von Hand geändert oder umbenannt wurde, bleibt, ebenso von Hand geänderte Gewichte des "
-        "Skeletts und aus Teilen erstellte Objekte: getrennte Stücke, als eigene, die nicht zum Mesh zurückführen, "
-        "Hüllen und Skelette",
+        "Eine UV-Map, die von Hand geändert oder umbenannt wurde, bleibt, ebenso übermalte Farben, von Hand geänderte "
+        "Gewichte des Skeletts und aus Teilen erstellte Objekte: getrennte Stücke, als eigene, die nicht zum Mesh "
+        "zurückführen, Hüllen und Skelette",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "Vorgabe, Ausgabe und Überlagerung dieser Szene wie in neuen Szenen setzen; siehe Einstellungen, Add-ons",
     "Set the parameters back to those of the preset; some of them were changed":
@@ -1041,6 +1042,8 @@ TEXTS = {
         "{name} hat so viele UV-Maps, wie Blender erlaubt. Bitte eine entfernen und erneut versuchen.",
     "{name}: the UV map {map} was changed by hand and stays":
         "{name}: Die UV-Map {map} wurde von Hand geändert und bleibt",
+    "{name}: the colors {attribute} were painted on and stay":
+        "{name}: Die Farben {attribute} wurden übermalt und bleiben",
     "{name}: weights of the armature were changed by hand and stay":
         "{name}: Gewichte des Skeletts wurden von Hand geändert und bleiben",
     "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces within "

@@ -458,10 +458,11 @@ TEXTS = {
         "将所选网格切割为人会命名的部件，并显示其 Reeb 图",
     "Stop computing; the scene is as it was before": "停止计算；场景与之前相同",
     "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back. A UV map that "
-    "you have changed or renamed stays, and so do weights of the armature that you have changed, and the objects made "
-    "of parts: separated pieces, as your own that do not lead back to the mesh, hulls and armatures":
-        "移除 Reeb Parts 添加到所选网格的一切；恢复之前的内容。您更改或重命名过的 UV 贴图、您更改过的骨架权重会保留，"
-        "由部件创建的物体也会保留：已分离的各块（成为您自己的物体，不再与原网格关联）、凸壳和骨架",
+    "you have changed or renamed stays, and so do colors that you have painted on, weights of the armature that you "
+    "have changed, and the objects made of parts: separated pieces, as your own that do not lead back to the mesh, "
+    "hulls and armatures":
+        "移除 Reeb Parts 添加到所选网格的一切；恢复之前的内容。您更改或重命名过的 UV 贴图、您绘制过的颜色、您更改过的"
+        "骨架权重会保留，由部件创建的物体也会保留：已分离的各块（成为您自己的物体，不再与原网格关联）、凸壳和骨架",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "将此场景的预设、输出和叠加设为与新场景相同；参见偏好设置的“插件”",
     "Set the parameters back to those of the preset; some of them were changed":
@@ -920,6 +921,7 @@ TEXTS = {
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} 的 UV 贴图数量已达 Blender 上限。请移除一个并重试。",
     "{name}: the UV map {map} was changed by hand and stays": "{name}：UV 贴图 {map} 经手动更改，予以保留",
+    "{name}: the colors {attribute} were painted on and stay": "{name}：颜色 {attribute} 经手动绘制，予以保留",
     "{name}: weights of the armature were changed by hand and stay": "{name}：骨架的权重经手动更改，予以保留",
     "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces "
     "within 0.3 to 3; angles {angle:.0f}° off on average":

@@ -439,6 +439,44 @@ def test_an_attribute_of_ours_that_was_made_a_vertex_group_is_the_users(obj):
     assert not [name for name in mesh.attributes.keys() if name.startswith("reeb")]  # noqa: SIM118
 
 
+@pytest.mark.parametrize("n_parts", [0, 2])
+def test_colors_that_were_painted_on_stay(obj, n_parts):
+    """Vertex Paint paints on the active colors, which are ours: Clear removed them with all strokes."""
+    mesh = obj.data
+    bpy.ops.reeb_parts.decompose()
+    if n_parts:
+        mesh.reeb_parts.n_parts = n_parts
+    colors = mesh.color_attributes["Reeb Parts"]
+    colors.data[7].color_srgb = (0.5, 0.25, 0.125, 1.0)
+    painted = read(colors.data, "color_srgb", width=4)
+    bpy.ops.reeb_parts.clear()
+    assert mesh.attributes.active_color_name == "Reeb Parts"
+    assert np.array_equal(read(mesh.color_attributes["Reeb Parts"].data, "color_srgb", width=4), painted)
+    assert "reeb_part" not in mesh.attributes
+    bpy.ops.reeb_parts.decompose()  # beside them
+    bpy.ops.reeb_parts.clear()
+    assert mesh.color_attributes.keys() == ["Reeb Parts"]
+    assert mesh.attributes.active_color_name == "Reeb Parts"
+    assert np.array_equal(read(mesh.color_attributes["Reeb Parts"].data, "color_srgb", width=4), painted)
+
+
+def test_colors_that_were_not_painted_on_go(obj):
+    """Whatever colored them: a palette, the user's choice, hands, a drag of Detail, the elements in another order."""
+    mesh = obj.data
+    bpy.ops.reeb_parts.decompose()
+    bpy.context.scene.reeb_parts.palette = "Pastel"
+    mesh.reeb_parts.parts[0].color = (0.3, 0.61, 0.123)
+    mesh.reeb_parts.detail = 0.6
+    bpy.ops.reeb_parts.merge_neighbour()
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.sort_elements(type="REVERSE", elements={"FACE"})
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.reeb_parts.clear()
+    assert mesh.color_attributes.keys() == []
+
+
 def seen_vertices(obj):
     """Where the vertices are with all modifiers."""
     bpy.context.view_layer.update()
