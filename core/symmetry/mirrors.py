@@ -18,6 +18,7 @@ from .topology import TopologyMirror, topology_mirror
 
 SURE = 0.95  # share of the area that a plane must mirror for nothing that was found to speak against it
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
+WHOLE_BUDGET = 50_000  # number of faces up to which several bodies as a whole are refined without an early stop
 LARGEST_GROUP = 64  # upper bound of the number of symmetries of a shape
 # Share of the area with both kinds of twins for which these must be the same: else a plane mirrors a shape one way, and
 # how faces hang together another way.
@@ -168,7 +169,7 @@ def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: 
     if len(components) == 1 and len(components[0].faces) == working.mesh.n_faces:
         mesh, polygon, large = components[0].mesh, components[0].polygon, []
     else:
-        mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+        mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area), WHOLE_BUDGET)
         polygon = working.polygon[parent]
         large = [part for part in components if part.mesh.area >= LEAST_BODY * working.mesh.area]
     whole = Mirror.of(mesh, polygon, n_polygons)

@@ -423,8 +423,8 @@ def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     Mirror images, which were pinned together, are released together.
     """
     images = part_names.twins(mesh) if context.scene.reeb_parts.symmetry else {}
-    wanted = list(numbers)
-    released = list({*wanted, *(images.get(number, number) for number in wanted)} - set(locked_others(mesh, 0)))
+    both = {side for number in numbers for side in (number, images.get(number, number))}
+    released = list(both - set(locked_others(mesh, 0)))
     with property_updates.quiet():
         store.save_numbers(mesh, replace(stored, pinned=np.where(np.isin(stored.pinned, released), 0, stored.pinned)))
     reactions.show(mesh.reeb_parts, context)
