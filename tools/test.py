@@ -5,7 +5,7 @@
     ./test unit-newest blender-5.2             only these
     ./test --blender PATH [--gui PATH]         also on the built extension, installed into a full Blender
     ./test unit-newest -- -k torus --pdb       everything after -- goes to pytest
-    ./test --brief                             each test in some of the versions only
+    ./test --brief                             each test in some of the versions, and half of many cases
     ./test --fuzz MINUTES                      look for faults, and store each as a case in tests/fuzz/cases
 
 The unit tests of core/ need no Blender and run with the oldest and the newest NumPy and SciPy that the
@@ -77,6 +77,9 @@ DIAGONAL = "REEB_PARTS_DIAGONAL"
 #: Blender, as a module or in full.
 SIXTHS = "REEB_PARTS_SIXTHS"
 BRIEF_SIXTHS = {"blender-4.2": "15", "blender-4.5": "3", "blender-5.2": "02", "inside": "4"}
+#: And what leaves half of the cases of long tables, see there as well.
+HALF = "REEB_PARTS_HALF"
+HALVED = {*BRIEF_SIXTHS, "unit-newest", "unit-oldest", "fuzz-blender"}
 #: Of the unit tests, which: the methods from papers are tried on models, by stored answers, and on any mesh by
 #: tests/fuzz; an older processor with one version of NumPy.
 BRIEF_WORDS = {"unit-oldest": "test_models or (test_everywhere and not older_processor)",
@@ -121,7 +124,8 @@ def main() -> None:
     parser.add_argument("--lint", action="store_true", help="also check the style and the types")
     parser.add_argument("--blender", metavar="PATH", help="also build, install and test in this full Blender")
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
-    parser.add_argument("--brief", action="store_true", help="try each test in some of the versions only")
+    parser.add_argument("--brief", action="store_true",
+                        help="try each test in some of the versions, and half of many cases")  # fmt: skip
     parser.add_argument("--fuzz", type=float, metavar="MINUTES", help="run the harness of tests/fuzz for so long")
     jobs = (os.cpu_count() or 1) + 1
     parser.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"steps at a time, default {jobs}")
@@ -176,6 +180,7 @@ def _work(name: str, arguments: argparse.Namespace, for_pytest: list[str], scrat
     words, variables = [], {}
     if arguments.brief:
         variables |= _sixths(name, *(["inside"] if name == "blender-5.2" and not arguments.blender else []))
+        variables |= _half(name)
         words = _words(name)
     if arguments.fuzz and name in LONG:
         variables |= {"REEB_PARTS_FUZZ": str(60 * arguments.fuzz / LONG[name]),
@@ -317,6 +322,14 @@ def _sixths(name: str, *missing: str) -> dict[str, str]:
     return {SIXTHS: sixths}
 
 
+def _half(name: str) -> dict[str, str]:
+    """The variable that leaves half of the cases of long tables, and says so; nothing for other steps."""
+    if name not in HALVED:
+        return {}
+    _left_out(f"{name}: half of the cases of each test that has many (--brief)")
+    return {HALF: "1"}
+
+
 def _words(name: str) -> list[str]:
     """The options that leave those of the tests of a step that are tried where time is short, and says so."""
     if name not in BRIEF_WORDS:
@@ -343,7 +356,7 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
         # Several Blenders run at a time: each has settings of its own.
         own, report = scratch / f"resources-{name}", scratch / f"{name}.xml"
         shutil.copytree(resources, own, symlinks=True)
-        variables = {**os.environ, **(_sixths(name) if brief else {DIAGONAL: str(len(SUITES))})}
+        variables = {**os.environ, **({**_sixths(name), **_half(name)} if brief else {DIAGONAL: str(len(SUITES))})}
         if name == "inside":
             _left_out("installed, inside: the unit tests but for the stored answers" + ("" if brief else
                       "; all but one situation of each operator, and of what tests/diagonal.py names"))
