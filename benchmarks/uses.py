@@ -28,8 +28,10 @@ from meshes import load_mesh
 from core import decompose
 from core.mesh.corners import CornerTable
 from core.uses.maps.unfold import unfolding_seams
-from core.uses.moving.bones import BoneSurface, following, limb_bones
+from core.uses.moving.bone_trees import following
+from core.uses.moving.bones import BoneSurface
 from core.uses.moving.hulls import part_hulls, part_volumes
+from core.uses.moving.limbs import limb_bones
 from core.uses.moving.skinning import BENT, bends, smooth_weights, turned_over
 
 HULLS = (1, 2, 4, 8)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Change parts by hand: merge, split, grow, shrink, assign, release; see scene.changes.edits."""
+"""Change parts by hand: merge, split, grow, shrink, assign, release; see edits and face_edits in scene.changes."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene.changes import edits
+from ..scene.changes import edits, face_edits, pins
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator
 from ..scene.result import part_list, part_names
@@ -28,7 +28,7 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
             raise SceneError(rpt_("Mark the parts to merge in the list, two or more."))
         active = part_list.active_number(obj.data)
         into = active if active in numbers else numbers[0]
-        edits.write(context, obj.data, stored, edits.merged(obj.data, stored, numbers, into))
+        pins.write(context, obj.data, stored, edits.merged(obj.data, stored, numbers, into))
         part_list.mark(obj.data, "NONE")
         return rpt_("{n} {n:part is|parts are} {name} now").format(
             n=Count(len(numbers)), name=part_names.part_name(obj.data, into))
@@ -44,12 +44,12 @@ class ChosenPartsOperator(PartOperator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
         numbers, names = chosen_numbers(obj.data), part_names.all_names(obj.data)
-        edits.check_unlocked(obj.data, numbers)
+        pins.check_unlocked(obj.data, numbers)
         after = stored
         for number in edits.one_of_each_pair(stored, numbers):
             after = self.edit(obj.data, after, number)
-        edits.write(context, obj.data, stored, after)
-        ended = edits.told_of_ended(obj.data, names)
+        pins.write(context, obj.data, stored, after)
+        ended = face_edits.told_of_ended(obj.data, names)
         return ended[:1].upper() + ended[1:] or None
 
 
@@ -61,8 +61,8 @@ class REEB_PARTS_OT_merge_neighbour(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         numbers = chosen_numbers(obj.data)
-        edits.check_unlocked(obj.data, numbers)
-        edits.write(context, obj.data, stored, edits.merged_into_neighbors(obj.data, stored, numbers))
+        pins.check_unlocked(obj.data, numbers)
+        pins.write(context, obj.data, stored, edits.merged_into_neighbors(obj.data, stored, numbers))
 
 
 class REEB_PARTS_OT_merge_small(PartOperator, bpy.types.Operator):
@@ -76,7 +76,7 @@ class REEB_PARTS_OT_merge_small(PartOperator, bpy.types.Operator):
         after, count = edits.small_merged(obj.data, stored, [part.number for part in small])
         if not count:
             raise SceneError(rpt_("There are no small parts to merge."))
-        edits.write(context, obj.data, stored, after)
+        pins.write(context, obj.data, stored, after)
         return rpt_("{n} small {n:part is|parts are} merged").format(n=Count(count))
 
 
@@ -140,8 +140,8 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         mesh = obj.data
-        number = edits.free_number(mesh, stored) if self.new else part_list.active_number(mesh)
-        told = edits.assign_selected(context, obj, stored, number)
+        number = pins.free_number(mesh, stored) if self.new else part_list.active_number(mesh)
+        told = face_edits.assign_selected(context, obj, stored, number)
         part_list.make_active(mesh, number)
         return told
 
@@ -154,9 +154,9 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         names = part_names.all_names(obj.data)
-        count = edits.assign_face_sets(context, obj, stored)
+        count = face_edits.assign_face_sets(context, obj, stored)
         told = rpt_("{n} {n:face is in another part|faces are in other parts} now").format(n=Count(count))
-        return "; ".join(filter(None, (told, edits.told_of_ended(obj.data, names))))
+        return "; ".join(filter(None, (told, face_edits.told_of_ended(obj.data, names))))
 
 
 class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
@@ -169,4 +169,4 @@ class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         which = "ALL" if self.everything else "CHOSEN"
-        edits.release(context, obj.data, stored, part_list.wanted_numbers(obj.data, which))
+        pins.release(context, obj.data, stored, part_list.wanted_numbers(obj.data, which))

@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene.changes import edits
+from ..scene.changes import pins
 from ..scene.reporting import PartOperator
 from ..scene.result import part_names
 from ..scene.result.part_list import active_number
@@ -32,7 +32,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         number = active_number(obj.data)
-        edits.check_unlocked(obj.data, [number])
+        pins.check_unlocked(obj.data, [number])
         brush = Brush(obj, pointing.Model(obj), number)
         for dab in self.stroke:
             brush.dab(dab.location[:], dab.radius, brush.model.face_at(obj, dab.location[:]))

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene.changes import edits
+from ..scene.changes import pins
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator
 from ..scene.result import part_names
@@ -39,7 +39,7 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
         number = active_number(obj.data)
-        edits.check_unlocked(obj.data, [number])
+        pins.check_unlocked(obj.data, [number])
         boundary = Boundary(obj, stored, number, self.neighbor)
         check_borders(obj, [boundary])
         numbers = boundary.slid(self.offset)

@@ -18,7 +18,7 @@ from ..pieces.closing import caps
 from ..reading import mesh_arrays
 
 if TYPE_CHECKING:
-    from ...core.uses.joints.places import Cap
+    from ...core.uses.joints.cap import Cap
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class Cut:
 
 def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[Cut]:
     """What the pieces have in common: connected faces of caps with the same corners in two of them."""
-    from ...core.uses.joints.places import Cap
+    from ...core.uses.joints.cap import Cap
 
     @cache  # a piece has several cuts
     def surface(key: int) -> tuple[np.ndarray, ...]:

@@ -18,7 +18,7 @@ from .planning import Plan
 from .solids import solid_of, with_solids
 
 if TYPE_CHECKING:
-    from ...core.uses.joints.places import Joint, Wanted
+    from ...core.uses.joints.room import Joint, Wanted
 
 # A joint that the solver fails at is tried again, so much smaller, and so often.
 _AGAIN, _TRIES = 0.93, 2

@@ -24,7 +24,7 @@ from .solids import dowel
 
 if TYPE_CHECKING:
     from ...core.graph.reeb import ReebGraph
-    from ...core.uses.joints.places import Wanted
+    from ...core.uses.joints.room import Wanted
     from ..settings import SeparateProperties
 
 # Joints are at least so wide, in millimeters: what is smaller breaks off.
@@ -84,7 +84,7 @@ class JointedPieces:
 
 def wanted_joints(style: SeparateProperties) -> Wanted:
     """What settings.SeparateProperties ask for, in units of the world."""
-    from ...core.uses.joints.places import Wanted
+    from ...core.uses.joints.room import Wanted
     from ...core.uses.joints.shapes import Kind
 
     unit = millimeters()

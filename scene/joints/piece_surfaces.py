@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pieces as core.uses.joints.places sees them: how far their surface is, and what is inside."""
+"""Pieces as core.uses.joints.room sees them: how far their surface is, and what is inside."""
 
 from __future__ import annotations
 

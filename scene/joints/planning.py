@@ -14,7 +14,8 @@ from .solids import solid_of
 
 if TYPE_CHECKING:
     from ...core.graph.reeb import ReebGraph
-    from ...core.uses.joints.places import Places, Wanted
+    from ...core.uses.joints.places import Places
+    from ...core.uses.joints.room import Wanted
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +75,8 @@ def _wanted_at(cut: Cut, wanted: Wanted, kind_of: Callable[[int, int], str]) -> 
 
 def _places(cut: Cut, wanted: Wanted, room: JointRoom) -> Places:
     """Where the joints of a cut have room."""
-    from ...core.uses.joints.places import arc_direction, joint_places
+    from ...core.uses.joints.cap import arc_direction
+    from ...core.uses.joints.places import joint_places
 
     # The smaller piece has the peg, the larger one has room for it.
     first = int(room.volumes[cut.keys[0]] < room.volumes[cut.keys[1]])

@@ -15,7 +15,7 @@ from ..reading import mesh_arrays
 from ..temporary import removed
 
 if TYPE_CHECKING:
-    from ...core.uses.joints.places import Joint, Wanted
+    from ...core.uses.joints.room import Joint, Wanted
     from ...core.uses.joints.shapes import Solid
 
 

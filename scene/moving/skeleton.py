@@ -80,7 +80,9 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
 
     limbs : bool, only bones of parts that can be bent where they are cut.
     """
-    from ...core.uses.moving.bones import BoneSurface, PartImages, limb_bones, part_bones  # imports SciPy
+    from ...core.uses.moving.bones import BoneSurface, part_bones  # imports SciPy
+    from ...core.uses.moving.limbs import limb_bones
+    from ...core.uses.moving.part_images import PartImages
 
     mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)

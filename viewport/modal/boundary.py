@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.sentence import Count
 from ...scene import bridge
-from ...scene.changes import edits
+from ...scene.changes import face_edits, pins
 from ...scene.errors import SceneError
 from ...scene.reading import mesh_arrays
 from ...scene.result import part_names
@@ -67,7 +67,7 @@ class Boundary:
         distance, across = boundary_distance(inside, pairs[kept], length[kept])
         # What a face inside would go to; its own part for one that has nowhere to go.
         self.receiver = np.where(inside & (across >= 0), self.numbers[across], self.numbers)
-        locked = edits.locked_others(obj.data, number)
+        locked = pins.locked_others(obj.data, number)
         stays = np.isin(self.numbers, locked) | np.isin(self.receiver, locked) | ~np.isfinite(distance)
         self.distance = np.where(stays, np.nan, distance)
         known = self.distance[np.isfinite(self.distance)]
@@ -129,10 +129,10 @@ def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     before, names = stored.face_numbers, part_names.all_names(obj.data)
     if (numbers == before).all():
         return None
-    wanted = edits.assign_faces(context, obj, stored, numbers, beside_taken=1.0)
+    wanted = face_edits.assign_faces(context, obj, stored, numbers, beside_taken=1.0)
     count = int(((wanted != before) & (np.isin(wanted, parts) | np.isin(before, parts))).sum())
     grew = np.isin(wanted, parts).sum() > np.isin(before, parts).sum()
     text = rpt_("{names} took {n} {n:face|faces}") if grew else rpt_("{names} gave away {n} {n:face|faces}")
     told = text.format(names=", ".join(part_names.part_name(obj.data, number) for number in parts), n=Count(count))
-    rest, ended = edits.told_of_rest(obj.data, before, wanted), edits.told_of_ended(obj.data, names)
+    rest, ended = face_edits.told_of_rest(obj.data, before, wanted), face_edits.told_of_ended(obj.data, names)
     return "; ".join(filter(None, (told, rest, ended)))

@@ -11,7 +11,7 @@ from ...core.arrays.indexing import expanded
 from ...core.arrays.pairs import both_ways
 from ...core.sentence import Count
 from ...scene import store
-from ...scene.changes import edits
+from ...scene.changes import face_edits, pins
 from ...scene.errors import SceneError
 from ...scene.reading import mesh_arrays
 from ...scene.result import part_names
@@ -48,7 +48,7 @@ class Brush:
         self.place = np.full(count, -1)
         self.chosen = np.zeros(count, bool)
         self._locked = np.zeros(count, bool)
-        self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
+        self.free = ~np.isin(model.numbers, pins.locked_others(obj.data, number))
 
     def dab(self, location: ArrayLike, radius: float, first: int) -> None:
         """Paint faces around a location, (3,), in coordinates of the mesh, as far as the surface goes there.
@@ -85,7 +85,7 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
     before = brush.model.numbers
     names = part_names.all_names(obj.data)
     givers = ", ".join(part_names.part_name(obj.data, number) for number in np.unique(before[moved]).tolist())
-    wanted = edits.assign_faces(context, obj, brush.model.stored, brush.numbers(), beside_taken=_SPECK)
+    wanted = face_edits.assign_faces(context, obj, brush.model.stored, brush.numbers(), beside_taken=_SPECK)
     after = store.load(obj.data).face_numbers
     joined = int((after[moved] == brush.number).sum())
     told = []
@@ -97,9 +97,9 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
         apart = rpt_("{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart")
     if joined < moved.sum():
         told.append(apart.format(n=Count(int(moved.sum()) - joined), givers=givers, name=name))
-    if rest := edits.told_of_rest(obj.data, before, wanted):
+    if rest := face_edits.told_of_rest(obj.data, before, wanted):
         told.append(rest)
-    if ended := edits.told_of_ended(obj.data, names):
+    if ended := face_edits.told_of_ended(obj.data, names):
         told.append(ended)
     if brush.n_locked:
         told.append(rpt_("{n} {n:is locked and stays|are locked and stay}").format(n=Count(brush.n_locked)))

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ...scene.changes import edits
+from ...scene.changes import pins
 from ...scene.errors import SceneError
 from ...scene.outputs import colors
 from ...scene.result import part_names
@@ -33,7 +33,7 @@ class ColoredTool(ViewTool):
             self.restore()
         self._shown = self.model.numbers
         self.number = active_number(obj.data)
-        edits.check_unlocked(obj.data, [self.number])
+        pins.check_unlocked(obj.data, [self.number])
 
     def show(self, obj: bpy.types.Object, numbers: np.ndarray) -> None:
         """Color the faces as if they were in other parts. numbers : (p,) int64."""

@@ -14,7 +14,7 @@ from ...core.mesh.labels import FaceGraph
 from ...core.sentence import Count
 from ...core.steps import Steps, stretched
 from ...scene import bridge, store
-from ...scene.changes import edits
+from ...scene.changes import face_edits, pins
 from ...scene.errors import SceneError
 from ...scene.pieces import cut_curves
 from ...scene.reading import mesh_arrays
@@ -117,13 +117,13 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
     """
     number = model.number(target)
     name = part_names.part_name(obj.data, number)
-    edits.check_unlocked(obj.data, [number])
+    pins.check_unlocked(obj.data, [number])
     tables = bridge.face_graph(obj)
     side = Knife(obj, model).sides(target, tables[0])
     if side is None:
         raise SceneError(nothing_there(obj, number))
-    new = edits.free_number(obj.data, model.stored)
-    edits.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), tables)
+    new = pins.free_number(obj.data, model.stored)
+    face_edits.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), tables)
     part_list.make_active(obj.data, new)
     told = rpt_("{new} was cut from {name}").format(new=part_names.part_name(obj.data, new), name=name)
     more = _parts_beside(model, store.load(obj.data), new)

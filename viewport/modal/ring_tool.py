@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.sentence import Count
 from ...core.steps import Steps
-from ...scene.changes import edits
+from ...scene.changes import pins
 from ...scene.errors import SceneError
 from ...scene.pieces import cut_curves
 from ...scene.reading.seen_points import seen_points
@@ -75,7 +75,7 @@ class RingTool(ColoredTool):
     def boundaries(self, obj: bpy.types.Object, stored: Stored) -> list[Boundary]:
         """Of the chosen parts; raises SceneError if one is locked, or none borders on another part."""
         numbers = part_list.chosen_numbers(obj.data)
-        edits.check_unlocked(obj.data, numbers)
+        pins.check_unlocked(obj.data, numbers)
         boundaries = [Boundary(obj, stored, number) for number in numbers]
         check_borders(obj, boundaries)
         return boundaries

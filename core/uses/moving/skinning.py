@@ -17,7 +17,8 @@ from ...arrays.vectors import lengths
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
 from ..maps.conformal import ConformalFactor, solved
-from .bones import Bones, following
+from .bone_trees import following
+from .bones import Bones
 
 # Ways to weights, tried in turn until none turns a face over. The first number: weights change within so many radii of
 # a joint on either side. A joint of radius r that is bent by the angle t shortens its inner side by t r; so that no

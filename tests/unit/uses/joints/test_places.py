@@ -8,7 +8,9 @@ import pytest
 import shapes
 
 from core import decompose
-from core.uses.joints.places import Cap, Wanted, arc_direction, joint_places
+from core.uses.joints.cap import Cap, arc_direction
+from core.uses.joints.places import joint_places
+from core.uses.joints.room import Wanted
 from core.uses.joints.shapes import Kind
 
 WANTED = Wanted(Kind.ROUND, 1, clearance=0.01, size=0.0, depth=0.0, wall=0.05, least=0.02)

@@ -7,7 +7,9 @@ import shapes
 
 from core.mesh.corners import CornerTable
 from core.symmetry.plane import MirrorPlane
-from core.uses.moving.bones import BoneSurface, PartImages, limb_bones, part_bones
+from core.uses.moving.bones import BoneSurface, part_bones
+from core.uses.moving.limbs import limb_bones
+from core.uses.moving.part_images import PartImages
 
 
 def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None, twin=None, limbs=False, plane=True):

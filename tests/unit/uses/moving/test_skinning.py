@@ -8,7 +8,9 @@ import shapes
 from core import decompose
 from core.mesh.corners import CornerTable
 from core.uses.moving import skinning
-from core.uses.moving.bones import Bones, BoneSurface, following, limb_bones
+from core.uses.moving.bone_trees import following
+from core.uses.moving.bones import Bones, BoneSurface
+from core.uses.moving.limbs import limb_bones
 from core.uses.moving.skinning import bends, limited, smooth_weights, turned_over
 
 
