@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where two pieces can be joined across a cut: places for pegs that leave a wall around them, and how large they are."""
+"""Where two pieces can be joined across a cut: places for pegs that leave a wall around them, and their sizes."""
 
 from __future__ import annotations
 

@@ -2,7 +2,9 @@
 """Caps: the faces that close pieces where they were cut.
 
 - ``caps``: makes them
-- ``cut_holes``: the holes that they close, and what has to be known of the whole for that
+- ``hole_walks``: closed walks around the holes that they close
+- ``new_vertices``: vertices inside them, with what those around have
+- ``cut_holes``: which holes those are, and what has to be known of the whole for that
 - ``discs``: finds their surfaces
 - ``disc``: one of these surfaces
 - ``disc_fitting``: keeps them inside the model

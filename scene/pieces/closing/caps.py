@@ -3,19 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
-from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
 from ....core.uses.caps.surfaces import common_order
 from ...reading import mesh_arrays, mesh_groups
 from ...reading.matrix_layers import as_bmesh
+from .hole_walks import holes_with
+from .new_vertices import between, inner_vertices, moved_to
 
 if TYPE_CHECKING:
     from .disc import Disc
@@ -78,7 +79,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, way
         bm.verts.ensure_lookup_table()
         meets = {bm.verts[i]: way for i, way in ways.items()}
         pairs = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
-        holes, left = _holes(edges)
+        holes, left = holes_with(edges)
         if not holes:
             return 0, left
         count, layer = len(holes), cap_layer(bm)
@@ -101,66 +102,6 @@ def _both_ways(pairs: Iterable[tuple[BMVert, BMVert]]) -> Pairs:
         found.setdefault(a, set()).add(b)
         found.setdefault(b, set()).add(a)
     return found
-
-
-def _holes(edges: list[BMEdge]) -> tuple[list[list[BMVert]], int]:
-    """Vertices around each hole with some of the edges, so that a face on them looks outwards."""
-    done, holes, left = set(), [], 0
-    for edge in edges:
-        if edge in done:
-            continue
-        around = _around(edge)
-        if around is None:
-            done.add(edge)
-            left += 1
-            continue
-        done.update(edge for edge, _ in around)
-        holes += _simple([vertex for _, vertex in around])
-    return holes, left
-
-
-def _around(start: BMEdge) -> list[tuple[BMEdge, BMVert]] | None:
-    """Edges of a hole in order, each with the vertex it leads to; None if faces do not lie in one sheet."""
-    loop = start.link_loops[0]
-    edge, vertex = start, loop.vert
-    around = []
-    while True:
-        around.append((edge, vertex))
-        loop = _next_border(loop, vertex)
-        if loop is None:
-            return None
-        edge = loop.edge
-        if edge == start:
-            return around
-        vertex = edge.other_vert(vertex)
-
-
-def _next_border(loop: BMLoop, vertex: BMVert) -> BMLoop | None:
-    """Turn around a vertex from one border edge to the other of the same sheet of faces."""
-    while True:
-        loop = loop.link_loop_prev if loop.vert == vertex else loop.link_loop_next
-        if loop.edge.is_boundary:
-            return loop
-        if len(loop.edge.link_loops) != 2:
-            return None
-        loop = loop.link_loop_radial_next
-
-
-def _simple(vertices: list[BMVert]) -> list[list[BMVert]]:
-    """Take a closed walk apart into closed walks that meet no vertex twice."""
-    walks: list[list[BMVert]] = []
-    path: list[BMVert] = []
-    place: dict[BMVert, int] = {}
-    for vertex in vertices:
-        if vertex in place:
-            at = place[vertex]
-            walks.append(path[at:])
-            for gone in path[at:]:
-                del place[gone]
-            del path[at:]
-        place[vertex] = len(path)
-        path.append(vertex)
-    return [walk for walk in [*walks, path] if len(walk) > 2]
 
 
 def _sheets(bm: BMesh, hole: list[BMVert], meeting: dict[BMVert, np.ndarray],
@@ -191,7 +132,7 @@ def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarr
 
     starts = [stretch[0] for stretch in stretches]
     n = len(starts)
-    made = {ways[0][-1].tobytes(): _moved(bm, _between(bm, starts, np.full(n, 1 / n)), ways[0][-1])}
+    made = {ways[0][-1].tobytes(): moved_to(bm, between(bm, starts, np.full(n, 1 / n)), ways[0][-1])}
     spokes = []
     for index, way in enumerate(ways):
         around = starts[index:] + starts[:index]
@@ -199,7 +140,7 @@ def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarr
             if place.tobytes() not in made:
                 weights = np.full(n, share / n)
                 weights[0] += 1 - share
-                made[place.tobytes()] = _moved(bm, _between(bm, around, weights), place)
+                made[place.tobytes()] = moved_to(bm, between(bm, around, weights), place)
         spokes.append([made[place.tobytes()] for place in way])
     walks = []
     for index, stretch in enumerate(stretches):
@@ -207,15 +148,6 @@ def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarr
         onwards, back = apart(ways[ahead], ways[index])
         walks.append([*stretch, *spokes[ahead][: len(onwards)], *reversed(spokes[index][: len(back) - 1])])
     return walks
-
-
-def _moved(bm: BMesh, vertex: BMVert, place: np.ndarray) -> BMVert:
-    """The vertex, moved to a place in all shapes."""
-    moved = Vector(place) - vertex.co
-    vertex.co = place
-    for layer in bm.verts.layers.shape.values():
-        vertex[layer] += moved
-    return vertex
 
 
 def _edge(vertex: BMVert, other: BMVert) -> BMEdge:
@@ -244,7 +176,7 @@ def _between_rims(bm: BMesh, holes: list[list[BMVert]], rims: list[list[BMVert]]
     if disc is None or -1 in used or len(used) != len(rims):
         return None
     rim = [vertex for rim in rims for vertex in rim]
-    corners = [*rim, *_inner(bm, rim, disc)]
+    corners = [*rim, *inner_vertices(bm, rim, disc)]
     hole = holes[place[rim[0]]]
     step = 1 if hole[(hole.index(rim[0]) + 1) % len(hole)] == rim[1] else -1
     return _triangles_of(disc, corners, step), used
@@ -288,7 +220,7 @@ def _surface(bm: BMesh, hole: list[BMVert], points: np.ndarray, discs: Discs) ->
     if disc is None:
         return None
     rim = [hole[i] for i in order]
-    corners = [*rim, *_inner(bm, rim, disc)]
+    corners = [*rim, *inner_vertices(bm, rim, disc)]
     # The triangles go round as the points do in the common order, which may be against the hole.
     step = -1 if order[1] != (order[0] + 1) % len(order) else 1
     return _triangles_of(disc, corners, step)
@@ -297,59 +229,6 @@ def _surface(bm: BMesh, hole: list[BMVert], points: np.ndarray, discs: Discs) ->
 def _triangles_of(disc: Disc, corners: list[BMVert], step: int) -> list[tuple[BMVert, ...]]:
     """The corners of each triangle of a surface, forwards, 1, or backwards, -1."""
     return [(corners[i], corners[j], corners[k]) for i, j, k in disc.triangles[:, ::step].tolist()]
-
-
-def _inner(bm: BMesh, rim: list[BMVert], disc: Disc) -> list[BMVert]:
-    """New vertices inside a surface, which have what those of its rim have, smoothly."""
-    made = [bm.verts.new(place) for place in disc.places.tolist()]
-    if not made:
-        return made
-    layers = bm.verts.layers
-    shapes, numbers = layers.shape.values(), layers.float.values()
-    several = [layer for kind in ("float_vector", "float_color", "color") for layer in getattr(layers, kind).values()]
-    # All at once, which takes hardly longer than one.
-    found = _spread_each(disc, [_values(rim, layer) for layer in (*shapes, *several)]
-                         + [np.array([[vertex[layer]] for vertex in rim]) for layer in numbers]
-                         + [_values(rim, "co") for _ in shapes[:1]])
-    for layer, values in zip(shapes, found, strict=False):
-        _set(made, layer, values + (disc.places - found[-1]))
-    for layer, values in zip(several, found[len(shapes):], strict=False):
-        _set(made, layer, values)
-    for layer, values in zip(numbers, found[len(shapes) + len(several):], strict=False):
-        _set(made, layer, values[:, 0])
-    if deform := bm.verts.layers.deform.active:
-        _spread_weights(made, rim, disc, deform)
-    return made
-
-
-def _spread_each(disc: Disc, values: list[np.ndarray]) -> list[np.ndarray]:
-    """What the points inside have of each of some values, see Disc.spread."""
-    if not values:
-        return []
-    ends = np.cumsum([some.shape[1] for some in values])[:-1]
-    return np.split(disc.spread(np.concatenate(values, axis=1)), ends, axis=1)
-
-
-def _values(rim: list[BMVert], layer: bmesh.types.BMLayerItem | str) -> np.ndarray:
-    """What the vertices of a rim have in a layer of several numbers, (k, c) float64."""
-    return np.array([vertex.co[:] if layer == "co" else vertex[layer][:] for vertex in rim], np.float64)
-
-
-def _set(vertices: list[BMVert], layer: bmesh.types.BMLayerItem, values: np.ndarray) -> None:
-    for vertex, value in zip(vertices, values.tolist(), strict=True):
-        vertex[layer] = value
-
-
-def _spread_weights(made: list[BMVert], rim: list[BMVert], disc: Disc, deform: bmesh.types.BMLayerItem) -> None:
-    """Give the vertices inside a surface weights between those of its rim."""
-    groups = sorted({group for v in rim for group in v[deform].keys()})  # noqa: SIM118
-    if not groups:
-        return
-    weights = disc.spread(np.array([[v[deform].get(group, 0.0) for group in groups] for v in rim]))
-    for vertex, values in zip(made, weights.tolist(), strict=True):
-        for group, weight in zip(groups, values, strict=True):
-            if weight > 0:
-                vertex[deform][group] = min(weight, 1.0)
 
 
 def _border_corner(vertex: BMVert, otherwise: BMLoop) -> BMLoop:
@@ -422,23 +301,5 @@ def _is_joined(hole: list[BMVert], inner: set[tuple[int, int]], joined: Pairs) -
 def _fan(bm: BMesh, hole: list[BMVert]) -> list[tuple[BMVert, ...]]:
     """Triangles to a new vertex in the middle of a hole."""
     share = _middle(np.array([vertex.co[:] for vertex in hole], np.float64))
-    middle = _between(bm, hole, share)
+    middle = between(bm, hole, share)
     return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]
-
-
-def _between(bm: BMesh, vertices: Sequence[BMVert], share: np.ndarray) -> BMVert:
-    """A new vertex that is what others are on average. share : (k,) float64, of each of them, 1 together."""
-    middle = bm.verts.new()
-    middle.copy_from_vert_interp([vertices[0], vertices[len(vertices) // 2]], 0.5)
-    middle.co = share @ np.array([vertex.co[:] for vertex in vertices])
-    for layer in bm.verts.layers.shape.values():
-        middle[layer] = share @ np.array([vertex[layer][:] for vertex in vertices])
-    if deform := bm.verts.layers.deform.active:
-        sums: dict[int, float] = {}
-        for vertex, part in zip(vertices, share.tolist(), strict=True):
-            for group, value in vertex[deform].items():
-                sums[group] = sums.get(group, 0.0) + part * value
-        middle[deform].clear()
-        for group, value in sums.items():
-            middle[deform][group] = value
-    return middle
