@@ -186,22 +186,27 @@ def by_graph():
     clicked = node.name
     yield from pointer.press(*pointer.over(node.matrix_world.translation))
     yield 0.3
-    note("a node", [chosen(), bpy.context.view_layer.objects.active.name, clicked])
+    note("a node", [*chosen_by_click(), clicked])
     pointer.shot("7_node.png")
     for name in ("Part 06", "Part 03"):
         yield from pointer.press(*on_arc(name))
         pointer.xdo("mousemove", *pointer.in_view(0.1, 0.1))  # and away, before the view is drawn again
-        yield 0.7
-        note(f"an arc of {name}", [chosen(), bpy.context.view_layer.objects.active.name])
+        yield from pointer.until(lambda name=name: chosen_by_click() == [[name, []], "spot"])
+        note(f"an arc of {name}", chosen_by_click())
     pointer.shot("8_arc.png")
     before = snapshot()
     choose("Part 06")
     bpy.ops.ed.undo_push(message="ready")
     ready = snapshot()
     yield from pointer.press(*on_arc("Part 02"))
-    yield 0.5
+    yield from pointer.until(lambda: chosen_by_click() == [["Part 02", []], "spot"])
     yield from undo_to("arc undone", ready, 2)
     yield from undo_to("choice undone", before)
+
+
+def chosen_by_click():
+    """What is chosen after a click on the graph, and which object is active then."""
+    return [chosen(), bpy.context.view_layer.objects.active.name]
 
 
 def disturbed():
@@ -217,12 +222,13 @@ def disturbed():
         split = snapshot()
         yield from pointer.search(name)
         yield from pointer.rest(*places[number("Part 06")])
+        left = split if name == "Slide Boundary" else ready  # sliding takes all keys for itself
         yield from pointer.tap("ctrl+z")
+        yield from pointer.until(lambda left=left: snapshot() == left, 2.0)
         yield from pointer.rest(*places[number("Part 03")])
         yield from pointer.tap("Escape")
-        yield 0.2
-        # Sliding takes all keys for itself.
-        note(f"undo within {name}", differences(split if name == "Slide Boundary" else ready))
+        yield from pointer.until(lambda: not at_work())
+        note(f"undo within {name}", differences(left))
         note(f"at work after {name}", at_work())
         for _ in range(4):
             if differences(before):
