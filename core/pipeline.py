@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,12 +17,12 @@ from .cuts.joining.method import JoinModel, fine_parts, join_parts
 from .cuts.methods import find_candidates
 from .field.agd import ScalarField, protrusion_field
 from .graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from .graph.reeb import reeb_graph, reeb_topology
+from .graph.reeb import ReebGraph, ReebTopology, reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
 from .mesh.arguments import hints_of
 from .mesh.copies import find_copies
 from .mesh.polygons import PolygonMesh
-from .parameters import TOGETHER, Parameters
+from .parameters import BERRETTI, TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
 from .result.component_results import ComponentResult
@@ -198,12 +199,21 @@ def decompose_component(
         The pieces of the component do not hang together by its bridges.
     """
     pyramid, field, sets = level_sets_of(component, parameters, watch, begin, width)
-    with watch.stage("reeb graph", begin + 0.5 * width):
-        topology = without_ripples(sets, reeb_topology(sets), field)
-        graph = reeb_graph(sets, topology)
-    with watch.stage("cuts", begin + width) as progress:
-        candidates = find_candidates(sets, field, topology, pyramid, parameters, model, progress)
+    drawn = cache(meanwhile(_drawn, sets, field))
+    if parameters.method == BERRETTI:  # cuts of all other methods can be found before the graph is there
+        with watch.stage("reeb graph", begin + 0.5 * width):
+            drawn()
+    with watch.stage("cuts", begin + 0.95 * width) as progress:
+        candidates = find_candidates(sets, field, lambda: drawn()[0], pyramid, parameters, model, progress)
+    with watch.stage("reeb graph", begin + width):
+        topology, graph = drawn()
     return ComponentResult(component, field, sets, topology, graph, candidates)
+
+
+def _drawn(sets: LevelSets, field: ScalarField) -> tuple[ReebTopology, ReebGraph]:
+    """The Reeb graph of a body, simplified, and the same with positions."""
+    topology = without_ripples(sets, reeb_topology(sets), field)
+    return topology, reeb_graph(sets, topology)
 
 
 def level_sets_of(

@@ -21,7 +21,7 @@ from .perceptual.method import perceptual_candidates
 def find_candidates(
     sets: LevelSets,
     field: ScalarField,
-    topology: ReebTopology,
+    topology: Callable[[], ReebTopology],
     pyramid: Pyramid,
     parameters: Parameters,
     model: BoostedTrees | None = None,
@@ -35,8 +35,8 @@ def find_candidates(
         Level sets of one connected component.
     field : ScalarField
         AGD of the component.
-    topology : ReebTopology
-        Reeb graph of the component, simplified.
+    topology : callable
+        Returns the Reeb graph of the component, simplified; the method "berretti" alone calls it.
     pyramid : Pyramid
         Coarser copies of the component's mesh.
     parameters : Parameters
@@ -57,7 +57,7 @@ def find_candidates(
     if parameters.method == PERCEPTUAL:
         return perceptual_candidates(sets, field, pyramid, parameters, model, progress)
     if parameters.method == BERRETTI:
-        candidates = berretti_candidates(sets, topology, parameters)
+        candidates = berretti_candidates(sets, topology(), parameters)
         n_pieces, piece = sets.mesh.face_components
         return candidates if n_pieces == 1 else candidates.within(piece[sets.element_face])
     if parameters.method == LAVOUE:

@@ -263,12 +263,14 @@ def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: n
     In each round every undecided vertex joins the set whose priority is higher than that of all undecided
     neighbors. a, b : edges in both directions, sorted by ``a``.
     """
-    n = len(priority)
     chosen = kept.copy()
     open_ = ~chosen
-    start = np.searchsorted(a, np.arange(n))
     while open_.any():
-        rivals = np.maximum.reduceat(np.where(open_[b], priority[b], -1), start)
+        both = np.flatnonzero(open_[a] & open_[b])
+        a, b = a[both], b[both]
+        rivals, start = np.full(len(priority), -1), run_starts(a)
+        if len(start):
+            rivals[a[start]] = np.maximum.reduceat(priority[b], start)
         winner = open_ & (priority > rivals)
         chosen |= winner
         open_ &= ~winner

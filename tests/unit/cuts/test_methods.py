@@ -22,7 +22,7 @@ def stages():
     pyramid = Pyramid(mesh)
     field = protrusion_field(pyramid, 0.005, True)
     sets = cut_at_levels(mesh, field.values, uniform_levels(50))
-    return sets, field, without_ripples(sets, reeb_topology(sets), field), pyramid
+    return sets, field, lambda: without_ripples(sets, reeb_topology(sets), field), pyramid
 
 
 @pytest.mark.parametrize("method", METHODS)
