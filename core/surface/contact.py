@@ -61,8 +61,9 @@ class SurfacePoints:
         """
         face_at = np.empty(mesh.n_vertices, np.int64)
         face_at[mesh.faces[::-1]] = np.arange(mesh.n_faces)[::-1, None]
-        offset = np.linalg.norm(mesh.corners - mesh.face_centroids[:, None], axis=2)
-        nearest = mesh.faces[np.arange(mesh.n_faces), first_least(offset)]
+        corners = np.sort(mesh.faces, axis=1)  # of equally near ones the first vertex, whichever way the face turns
+        offset = np.linalg.norm(mesh.vertices[corners] - mesh.face_centroids[:, None], axis=2)
+        nearest = corners[np.arange(mesh.n_faces), first_least(offset)]
         points = cls(
             np.concatenate([mesh.vertices, mesh.face_centroids]),
             np.concatenate([face_at, np.arange(mesh.n_faces)]),

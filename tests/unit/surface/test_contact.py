@@ -27,6 +27,18 @@ def two_boxes(gap):
     return pair(gap * diameter(points.position, points.area))
 
 
+def test_pieces_of_the_mirror_image_are_linked_where_the_pieces_are():
+    """A face with two equal sides has two corners that are equally near its middle."""
+    solids = shapes.subdivide(shapes.together(
+        shapes.lathe([0, 1, 0.6, 1, 0], [0, 1, 2, 3, 4], 10), shapes.moved(shapes.icosphere(1), (1.4, 0.5, 1)),
+        shapes.moved(shapes.torus(9, 6, 0.8, 0.2), (0.3, -0.2, 2.2))))
+    one = bridges(TriMesh(*solids))
+    other = bridges(TriMesh(solids.vertices * (-1, 1, 1), solids.faces[:, [0, 2, 1]]))
+    assert len(one.faces) > 0
+    np.testing.assert_array_equal(one.vertices, other.vertices)
+    np.testing.assert_array_equal(one.faces, other.faces)
+
+
 def test_boxes_are_linked_where_they_come_near_or_where_all_are_to_hang_together():
     for gap, connected, linked in ((0.01, False, True), (0.1, False, False), (0.1, True, True)):
         mesh = two_boxes(gap)

@@ -34,6 +34,9 @@ MIRRORED = {
     "ring": lambda: bent(shapes.torus(8, 5)), "figure": lambda: shapes.mirrored_figure(0.4),
     "pieces": lambda: shapes.together(bent(shapes.box()), shapes.moved(bent(shapes.icosphere(1)), (0.9, 0.2, 0.3)),
                                       shapes.moved(bent(shapes.torus(8, 5)), (0, 1, 0))),
+    "pieces with faces of two equal sides": lambda: shapes.together(
+        shapes.lathe([0, 1, 0.6, 1, 0], [0, 1, 2, 3, 4], 10), shapes.moved(shapes.icosphere(1), (1.4, 0.5, 1)),
+        shapes.moved(shapes.torus(9, 6, 0.8, 0.2), (0.3, -0.2, 2.2))),
 }
 
 
