@@ -17,8 +17,11 @@ class SceneError(Exception):
 def translated(words: str | Exception) -> str:
     """A sentence of core, or an error that carries one, in the language of the interface.
 
-    What is in that language already, like a SceneError, stays as it is.
+    What is in that language already, like a SceneError, stays as it is. An array for which there is no room says how
+    large it would be, and nothing of what to do: all of it has been taken back when this is asked.
     """
+    if isinstance(words, MemoryError):
+        return rpt_("There is not enough memory; nothing was changed. Close other programs and try again.")
     sentence: Any = words.args[0] if isinstance(words, Exception) else words
     # By what it has, not by its type: Blender may have loaded the extension anew in the meantime.
     if not hasattr(sentence, "message"):

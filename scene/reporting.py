@@ -65,7 +65,7 @@ class ReportingOperator:
         try:
             with transaction():
                 return work(*arguments) or {"FINISHED"}
-        except (SceneError, ReebError) as error:
+        except (SceneError, ReebError, MemoryError) as error:
             self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}
 

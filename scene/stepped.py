@@ -103,7 +103,7 @@ class SteppedOperator(ReportingOperator):
         except StopIteration:
             self._stop_watching(context)
             return {"FINISHED"}
-        except (SceneError, ReebError) as error:
+        except (SceneError, ReebError, MemoryError) as error:
             self._stop_watching(context)
             self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}

@@ -900,6 +900,9 @@ TEXTS = {
     "decimate a copy and decompose that.":
         "Der Speicher reicht nicht, um {name} zu zerlegen ({n} Punkte); nichts wurde geändert. Bitte andere Programme "
         "schließen, oder eine Kopie dezimieren und diese zerlegen.",
+    "There is not enough memory; nothing was changed. Close other programs and try again.":
+        "Der Speicher reicht nicht; nichts wurde geändert. Bitte andere Programme schließen und es noch einmal "
+        "versuchen.",
     "The process that decomposed {name} ended unexpectedly ({reason}); nothing was changed. Try again, and report it "
     "if that happens again.":
         "Der Prozess, der {name} zerlegte, endete unerwartet ({reason}); nichts wurde geändert. Bitte noch einmal "

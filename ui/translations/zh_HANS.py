@@ -806,6 +806,8 @@ TEXTS = {
     "There is not enough memory to decompose {name} ({n} vertices); nothing was changed. Close other programs, or "
     "decimate a copy and decompose that.":
         "内存不足，无法分解 {name}（{n} 个顶点）；未更改任何内容。请关闭其他程序，或精简一个副本并分解该副本。",
+    "There is not enough memory; nothing was changed. Close other programs and try again.":
+        "内存不足；未更改任何内容。请关闭其他程序后重试。",
     "The process that decomposed {name} ended unexpectedly ({reason}); nothing was changed. Try again, and report it "
     "if that happens again.":
         "分解 {name} 的进程意外终止（{reason}）；未更改任何内容。请重试；如果再次发生，请报告。",

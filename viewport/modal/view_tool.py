@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
 from ...scene import redraw, running
-from ...scene.errors import SceneError
+from ...scene.errors import SceneError, translated
 from ...scene.reporting import ReportingOperator
 from ...scene.transaction import transaction
 from .. import hover, idle, pointing
@@ -153,8 +153,8 @@ class ViewTool(ReportingOperator):
         try:
             with transaction():
                 return self._do(context, event)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
+        except (SceneError, MemoryError) as error:
+            self.report({"ERROR"}, translated(error))
             return self.give_up(context)
 
     def _do(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

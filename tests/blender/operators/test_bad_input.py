@@ -290,3 +290,18 @@ def test_a_mesh_edited_through_another_object(obj):
 def test_clear_without_parts(obj):
     with pytest.raises(RuntimeError):
         bpy.ops.reeb_parts.clear()
+
+
+@pytest.mark.parametrize("name", ["decompose", "separate", "hulls", "armature", "unwrap", "merge_small"])
+def test_out_of_memory(package, obj, monkeypatch, name):
+    """In Blender itself: there was a traceback, which says how large an array would have been."""
+    bpy.ops.reeb_parts.decompose(levels=40)
+    before = snapshot()
+    arrays = importlib.import_module(f"{package}.scene.reading.mesh_arrays")
+    monkeypatch.setattr(arrays, "read", lambda *_: np.empty(2**58))
+    with pytest.raises(RuntimeError) as error:
+        getattr(bpy.ops.reeb_parts, name)()
+    monkeypatch.undo()
+    assert str(error.value).strip() == (
+        "Error: There is not enough memory; nothing was changed. Close other programs and try again.")
+    assert snapshot() == before
