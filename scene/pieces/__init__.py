@@ -14,6 +14,7 @@ Their meshes:
 - ``mesh_replacement``: puts another in place of one
 - ``sculpted_pieces``: makes those of a mesh with Multires
 - ``by_extent``: modifiers that work by the extent of the whole mesh, and would shape a piece otherwise
+- ``named_outputs``: vertex groups and attributes of ours that the user's modifiers work by
 - ``welding``: joins seams before
 - ``cut_curves``: curves that they are cut along
 - ``smooth_faces``: divides faces along these

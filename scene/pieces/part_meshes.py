@@ -2,7 +2,7 @@
 """Parts as meshes of their own.
 
 They carry what the user's mesh carries, and nothing that Reeb Parts wrote to it but the materials of the parts, if
-these were asked for.
+these were asked for, and what modifiers work by.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from ..temporary import removed
 from . import smooth_faces, welding
 from .closing import cap_looks, caps
 from .closing.cut_holes import Holes
+from .named_outputs import KeptAttributes, groups_in_use
 from .sculpted_pieces import SculptedMesh, is_sculpted
 
 _CUSTOM = "custom_normal"  # Blender's own
@@ -35,16 +36,17 @@ _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while fac
 
 
 def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
-    """A copy of a mesh without anything of ours but the parts' materials, and what our armature moves; Object Mode."""
-    copy, moved = mesh.copy(), _moved_groups(mesh)
+    """A copy of a mesh without anything of ours but the parts' materials, and what modifiers work by; Object Mode."""
+    copy, stay, attributes = mesh.copy(), _moved_groups(mesh) | groups_in_use(mesh), KeptAttributes(mesh)
     result = copy.reeb_parts
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.objects, twin), property_updates.quiet():
         result.has_materials = False
         for part in result.parts:
             part.material = None
-            part.group = "" if part.group in moved else part.group
+            part.group = "" if part.group in stay else part.group
         outputs.remove_outputs(twin)
+        attributes.write(copy)
         copy.property_unset("reeb_parts")
     for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
         del copy[key]
@@ -133,7 +135,7 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
             whole, n_apart = _welded(whole, np.isin(face_numbers, wanted), sculpted)
             whole = whole if sculpted else _agreeing(whole)
         source = (partial(SculptedMesh, plain, planar) if sculpted
-                  else partial(PlainMesh, plain, whole, planar, _moved_groups(mesh)))
+                  else partial(PlainMesh, plain, whole, planar, _moved_groups(mesh) - groups_in_use(mesh)))
         yield 0.1
         made = yield from stretched(_made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64)),
                                     0.1, 0.8)

@@ -177,3 +177,106 @@ def test_faces_of_no_part_are_refused_and_nothing_written(obj):
     with pytest.raises(RuntimeError, match="belong to no part"):
         bpy.ops.reeb_parts.separate(seen=True)
     assert snapshot() == before
+
+
+def mask(obj, group):
+    obj.modifiers.new("Mask", "MASK").vertex_group = group
+
+
+def displaced(obj, group):
+    modifier = obj.modifiers.new("Displace", "DISPLACE")
+    modifier.direction, modifier.vertex_group = "Z", group
+
+
+def shaped(obj, group):
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Long")
+    key.data.foreach_set("co", (1.5 * read(obj.data.vertices, "co", np.float32, 3)).ravel())
+    key.vertex_group, key.value = group, 1.0
+
+
+def hairy(obj, group):
+    obj.modifiers.new("Hair", "PARTICLE_SYSTEM")
+    obj.particle_systems[0].vertex_group_density = group
+
+
+def given(obj, group):
+    """Nodes that move what is in a group, whose name the modifier has."""
+    tree = nodes_of(obj, "GeometryNodeSetPosition")
+    tree.interface.new_socket("Group", in_out="INPUT", socket_type="NodeSocketVector")
+    start, move = (next(node for node in tree.nodes if node.bl_idname == name)
+                   for name in ("NodeGroupInput", "GeometryNodeSetPosition"))
+    tree.links.new(start.outputs[1], move.inputs["Offset"])
+    modifier = obj.modifiers["Nodes"]
+    if hasattr(modifier, "properties"):
+        modifier.properties.inputs.Socket_2.type = "ATTRIBUTE"
+        modifier.properties.inputs.Socket_2.attribute_name = group
+    else:
+        modifier["Socket_2_use_attribute"], modifier["Socket_2_attribute_name"] = True, group
+    obj.update_tag()
+
+
+def named(obj, group):
+    """Nodes that name a group, within another group of nodes."""
+    inner = bpy.data.node_groups.new("Inner", "GeometryNodeTree")
+    inner.interface.new_socket("Weight", in_out="OUTPUT", socket_type="NodeSocketFloat")
+    weight, end = (inner.nodes.new(name) for name in ("GeometryNodeInputNamedAttribute", "NodeGroupOutput"))
+    weight.inputs["Name"].default_value = group
+    inner.links.new(weight.outputs[0], end.inputs[0])
+    tree = nodes_of(obj, "GeometryNodeSetPosition")
+    node = tree.nodes.new("GeometryNodeGroup")
+    node.node_tree = inner
+    move = next(node for node in tree.nodes if node.bl_idname == "GeometryNodeSetPosition")
+    tree.links.new(node.outputs[0], move.inputs["Offset"])
+
+
+def nodes_of(obj, name):
+    """A modifier with a node that geometry goes through."""
+    tree = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    start, node, end = (tree.nodes.new(name) for name in ("NodeGroupInput", name, "NodeGroupOutput"))
+    tree.links.new(start.outputs[0], node.inputs[0])
+    tree.links.new(node.outputs[0], end.inputs[0])
+    obj.modifiers.new("Nodes", "NODES").node_group = tree
+    return tree
+
+
+@pytest.mark.parametrize("use", [mask, displaced, shaped, hairy, given, named])
+@pytest.mark.parametrize("style", [{}, {"caps": True, "cut": "SMOOTH"}])
+def test_a_group_of_a_part_by_which_a_modifier_works_comes_along(obj, use, style):
+    """Without the group, a modifier that is to act on one part acts on all pieces, and a Mask hid all of them."""
+    bpy.ops.reeb_parts.decompose(vertex_groups=True)
+    names, group = obj.vertex_groups.keys(), obj.vertex_groups[1].name
+    use(obj, group)
+    seen = seen_faces(obj)
+    bpy.ops.reeb_parts.separate(**KEEP, **{**WHOLE, **style})
+    assert all(piece.vertex_groups.keys() == [group] for piece in pieces_of())
+    assert obj.vertex_groups.keys() == names
+    if not style:
+        assert same_places(seen_faces(*pieces_of()), seen)
+
+
+def test_part_numbers_by_which_nodes_work_come_along(obj):
+    bpy.ops.reeb_parts.decompose(face_attribute=True)
+    tree = nodes_of(obj, "GeometryNodeDeleteGeometry")
+    number, same = (tree.nodes.new(name) for name in ("GeometryNodeInputNamedAttribute", "FunctionNodeCompare"))
+    number.data_type, number.inputs["Name"].default_value = "INT", "reeb_part"
+    same.data_type, same.operation = "INT", "EQUAL"
+    first, second = (socket for socket in same.inputs if socket.type == "INT")
+    second.default_value = 2
+    away = next(node for node in tree.nodes if node.bl_idname == "GeometryNodeDeleteGeometry")
+    away.domain = "FACE"
+    tree.links.new(next(socket for socket in number.outputs if socket.enabled), first)
+    tree.links.new(same.outputs[0], away.inputs["Selection"])
+    seen = seen_faces(obj)
+    assert 0 < len(seen) < len(obj.data.polygons)
+    bpy.ops.reeb_parts.separate(**KEEP, **WHOLE)
+    assert same_places(seen_faces(*pieces_of()), seen)
+
+
+def test_what_only_explode_works_by_stays_behind(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 0.5
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert not any("reeb_part" in piece.data.attributes for piece in pieces_of())
