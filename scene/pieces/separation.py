@@ -280,12 +280,15 @@ def _piece(run: _Run, mesh: bpy.types.Mesh, name: str) -> bpy.types.Object:
     piece.hide_viewport, piece.hide_render = False, not is_rendered(run.context, obj)
     if not _keeps_modifiers(style):
         piece.modifiers.clear()
+    if style.seen or style.parent:
+        _free_from_parent(piece, style)
     if style.parent:
         # What moved the object moves its child already.
         piece.animation_data_clear()
         piece.constraints.clear()
     # The origin of an object that something holds, or that something works about, cannot be moved.
-    free = not piece.animation_data and not piece.constraints and all(map(_works_anywhere, piece.modifiers))
+    free = (not piece.animation_data and not piece.constraints and all(map(_works_anywhere, piece.modifiers))
+            and modified.deforming_kind(piece) in {None, "ARMATURE"})
     middle = _center(mesh) if style.center and free else Vector()
     if style.parent:
         piece.parent, piece.parent_type = obj, "OBJECT"
@@ -294,6 +297,21 @@ def _piece(run: _Run, mesh: bpy.types.Mesh, name: str) -> bpy.types.Object:
     else:
         piece.location += piece.matrix_basis.to_3x3() @ middle
     return piece
+
+
+def _free_from_parent(piece: bpy.types.Object, style: SeparateProperties) -> None:
+    """Have a parent that deforms only move a piece, with a modifier in its place where pieces have modifiers.
+
+    What is seen is deformed already, and another parent would not deform.
+    """
+    kind = modified.deforming_kind(piece)
+    if kind is None:
+        return
+    piece.parent_type = "OBJECT"
+    if _keeps_modifiers(style):
+        modifier = piece.modifiers.new(kind.title(), kind)
+        modifier.object = piece.parent
+        piece.modifiers.move(len(piece.modifiers) - 1, 0)  # the parent comes first
 
 
 def _keeps_modifiers(style: SeparateProperties) -> bool:

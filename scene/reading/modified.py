@@ -42,9 +42,19 @@ class BothSides:
 
 
 def has_modifiers(obj: bpy.types.Object) -> bool:
-    """Whether modifiers other than ours change what is seen of an object."""
+    """Whether modifiers other than ours, or a parent that deforms it, change what is seen of an object."""
     ours = explode.find(obj), hidden.find(obj)
-    return any(modifier.show_viewport and modifier not in ours for modifier in obj.modifiers)
+    return deforming_kind(obj) is not None or any(
+        modifier.show_viewport and modifier not in ours for modifier in obj.modifiers)
+
+
+def deforming_kind(obj: bpy.types.Object) -> str | None:
+    """The type of the modifier that its parent is to an object without being one of its modifiers, or None.
+
+    So it is where *Parent Type* is Armature or Lattice.
+    """
+    deforms = obj.parent is not None and obj.parent_type == obj.parent.type  # no other types have names in both
+    return obj.parent_type if deforms else None
 
 
 def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,

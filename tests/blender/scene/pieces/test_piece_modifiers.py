@@ -280,3 +280,44 @@ def test_what_only_explode_works_by_stays_behind(obj):
     obj.reeb_parts_made.explode = 0.5
     bpy.ops.reeb_parts.separate(**KEEP)
     assert not any("reeb_part" in piece.data.attributes for piece in pieces_of())
+
+
+def rig_of(obj):
+    """A bent armature with one bone, which moves the upper half."""
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.collection.objects.link(rig)
+    activate(rig)
+    bpy.ops.object.mode_set(mode="EDIT")
+    rig.data.edit_bones.new("Bone").tail = (0, 0, 1)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    rig.pose.bones["Bone"].rotation_quaternion = (0.9, 0.3, 0.2, 0.1)
+    high = np.flatnonzero(read(obj.data.vertices, "co", np.float32, 3)[:, 2] > 0)
+    obj.vertex_groups.new(name="Bone").add(high.tolist(), 1.0, "REPLACE")
+    return rig
+
+
+def lattice_of(_):
+    lattice = bpy.data.objects.new("Lattice", bpy.data.lattices.new("Lattice"))
+    bpy.context.collection.objects.link(lattice)
+    lattice.scale = (5, 5, 5)
+    lattice.data.points[0].co_deform.x -= 1
+    return lattice
+
+
+@pytest.mark.parametrize("style", [{}, {"center": False}, {"seen": True}, {"parent": True},
+                                   {"parent": True, "center": False}, {"parent": True, "seen": True}])
+@pytest.mark.parametrize("kind", ["ARMATURE", "LATTICE"])
+@pytest.mark.parametrize("displaces", [False, True])
+def test_pieces_of_what_its_parent_deforms_stay_where_they_were(obj, style, kind, displaces):
+    """It deforms without a modifier: what was seen was deformed twice, and a child of the original not at all."""
+    obj.location, obj.rotation_euler = (1, 0.5, 0.2), (0.1, 0.2, 0.3)
+    parent = rig_of(obj) if kind == "ARMATURE" else lattice_of(obj)
+    obj.parent, obj.parent_type = parent, kind
+    if displaces:
+        obj.modifiers.new("Displace", "DISPLACE").direction = "Z"
+    activate(obj)
+    bpy.ops.reeb_parts.decompose()
+    before = seen_faces(obj)
+    bpy.ops.reeb_parts.separate(**style, **WHOLE)
+    assert same_places(seen_faces(*pieces_of()), before)
+    assert obj.parent_type == kind
