@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What we wrote to a mesh and the user's modifiers work by: without it, they would shape pieces otherwise.
+"""What we wrote to a mesh and the user's modifiers and materials work by: without it, pieces would look otherwise.
 
 A modifier that is to act on one part has the name of its vertex group. On a piece without the group it would act on
-all of it, or, as a Mask does, hide none or all.
+all of it, or, as a Mask does, hide none or all. A material that reads an attribute of ours would be black.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def groups_in_use(mesh: bpy.types.Mesh) -> set[str]:
 
 
 class KeptAttributes:
-    """Attributes of ours by which nodes work on a mesh, kept while all outputs are removed from a copy of it."""
+    """Attributes of ours that nodes of modifiers or materials read, kept while a copy of a mesh loses all outputs."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         result = mesh.reeb_parts
@@ -45,6 +45,8 @@ def _texts_of(mesh: bpy.types.Mesh) -> set[str]:
     found = {key.vertex_group for key in (mesh.shape_keys.key_blocks if mesh.shape_keys else ())}
     trees: dict[bpy.types.NodeTree, None] = {}
     for obj in targets.users(mesh):
+        for slot in obj.material_slots:
+            _collect_trees(slot.material and slot.material.node_tree, trees)
         ours = explode.find(obj), hidden.find(obj)
         theirs = [modifier for modifier in obj.modifiers if modifier not in ours]
         for item in (*theirs, *obj.particle_systems):
@@ -76,10 +78,10 @@ def _collect_trees(tree: bpy.types.NodeTree | None, trees: dict[bpy.types.NodeTr
 
 
 def _texts_of_nodes(tree: bpy.types.NodeTree) -> set[str]:
-    """The texts in the sockets of nodes, and of nodes that give a text."""
+    """The texts of nodes and in their sockets."""
     sockets = [socket for node in tree.nodes for socket in node.inputs if socket.type == "STRING"]
     # A group's own default counts where the modifier was given nothing else.
     items = [item for item in tree.interface.items_tree if getattr(item, "socket_type", "") == "NodeSocketString"]
-    given = [node.string for node in tree.nodes if node.bl_idname == "FunctionNodeInputString"]
     named = [getattr(item, "default_attribute_name", "") for item in tree.interface.items_tree]
-    return {*(socket.default_value for socket in sockets), *(item.default_value for item in items), *given, *named}
+    own = [text for node in tree.nodes for text in _texts(node, 0)]
+    return {*(socket.default_value for socket in sockets), *(item.default_value for item in items), *named, *own}

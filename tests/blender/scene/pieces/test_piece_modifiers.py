@@ -275,6 +275,27 @@ def test_part_numbers_by_which_nodes_work_come_along(obj):
     assert same_places(seen_faces(*pieces_of()), seen)
 
 
+@pytest.mark.parametrize(("kind", "key"), [("ShaderNodeVertexColor", "layer_name"),
+                                           ("ShaderNodeAttribute", "attribute_name")])
+@pytest.mark.parametrize("link", ["DATA", "OBJECT"])
+def test_colors_that_a_material_shows_come_along(obj, kind, key, link):
+    """Rendered by such a material, pieces were black; another attribute is left out as ever."""
+    bpy.ops.reeb_parts.decompose(face_attribute=True)
+    material = bpy.data.materials.new("Shown")
+    material.use_nodes = True
+    setattr(material.node_tree.nodes.new(kind), key, "Reeb Parts")
+    obj.data.materials.append(None)
+    obj.material_slots[0].link = link
+    obj.material_slots[0].material = material
+    attribute = obj.data.color_attributes["Reeb Parts"]
+    shown = {tuple(item.color) for item in attribute.data}
+    bpy.ops.reeb_parts.separate(**KEEP)
+    colors = [piece.data.color_attributes["Reeb Parts"] for piece in pieces_of()]
+    assert {color.domain for color in colors} == {attribute.domain}
+    assert {tuple(item.color) for color in colors for item in color.data} == shown
+    assert not any("reeb_part" in piece.data.attributes for piece in pieces_of())
+
+
 def test_what_only_explode_works_by_stays_behind(obj):
     bpy.ops.reeb_parts.decompose()
     obj.reeb_parts_made.explode = 0.5
