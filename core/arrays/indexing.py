@@ -151,9 +151,10 @@ def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
         0 for a group without rows.
     """
     if values.ndim == 1:
-        return np.bincount(index, values, count)
+        # Of no rows, NumPy has whole numbers.
+        return np.bincount(index, values, count).astype(np.float64, copy=False)
     # One column at a time is several times faster than np.add.at, and adds in the order of the rows.
-    return np.stack([np.bincount(index, column, count) for column in values.T], axis=1)
+    return np.stack([sums_by(index, column, count) for column in values.T], axis=1)
 
 
 def taken(values: np.ndarray, index: np.ndarray) -> np.ndarray:

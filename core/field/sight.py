@@ -31,7 +31,8 @@ class _Windows:
     source : (w,) int64
         The vertex that looks.
     side : (w,) int64
-        Side of the triangle behind the edge: 3 times the face, plus the corner where the side begins.
+        Side of the triangle behind the edge: 3 times the face, plus the corner where the side begins;
+        -1 where there is none.
     ends : (w, 2) int64
         Vertices at the right and the left end of the edge.
     right, left : (w, 2) float64

@@ -182,7 +182,7 @@ class LevelSets:
     @cached_property
     def contour_length(self) -> np.ndarray:
         """(C,) float64, length of each contour, in units of the vertices."""
-        return np.bincount(self.segment_contour, self.segment_length, self.n_contours)
+        return sums_by(self.segment_contour, self.segment_length, self.n_contours)
 
     @cached_property
     def contour_center(self) -> np.ndarray:

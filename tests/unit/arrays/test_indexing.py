@@ -17,6 +17,7 @@ from core.arrays.indexing import (
     rounded_order,
     run_starts,
     stable_order,
+    sums_by,
     taken,
 )
 
@@ -96,3 +97,11 @@ def test_the_last_of_a_group_without_elements_is_none():
     group, key = np.array([0, 2, 2, 0]), np.array([1.0, 1.0, 3.0, 1.0])
     assert last_of_each(group, key, count=4).tolist() == [3, -1, 2, -1]
     assert is_last_of_each(group, key, count=4).tolist() == [False, False, True, True]
+
+
+@pytest.mark.parametrize("shape", [(0,), (0, 2), (4,), (4, 2)])
+def test_sums_are_float64_of_no_rows_too(shape):
+    found = sums_by(np.full(shape[0], 1), np.ones(shape), 3)
+    assert found.dtype == np.float64
+    assert found.shape == (3, *shape[1:])
+    assert np.array_equal(found.reshape(3, -1)[:, 0], [0, shape[0], 0])

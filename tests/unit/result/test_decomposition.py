@@ -82,6 +82,15 @@ def test_out_of_range(asked):
         row().parts(**asked)
 
 
+@pytest.mark.parametrize("make", [shapes.icosphere, lambda: shapes.tube_tree(step=0.2)])
+def test_lengths_are_float64_where_there_are_none_too(make):
+    result = decompose(*make())
+    whole = result.parts(n_parts=1)
+    assert whole.cuts.shape == (0, 2)
+    for lengths in (whole.cut_length, whole.cut_salience, result.graph.point_length, result.candidate_pair_length):
+        assert lengths.dtype == np.float64
+
+
 def test_any_grouping():
     parts = row().group(np.array([7, 3, 3, 7]))  # candidates 0 and 3 do not touch
     assert parts.labels.tolist() == [1, 0, 0, 0, 0, 0, 1]
