@@ -29,16 +29,19 @@ from .gltf_checks import read_header, unread
 from .obj_files import parse_obj
 from .off_files import parse_off
 from .ply_files import ASCII, read_ply
+from .polygons_in_files import NOT_THERE, plain_text
 from .stl_files import parse_stl
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx", ".usd", ".usda", ".usdc", ".usdz", ".abc")
-#: Files in which z is up by custom; y is in all others.
+#: Files in which z is up by custom; y is in all others, but of .dae, which say it.
 Z_UP = (".stl", ".ply", ".3mf", *BY_BLENDER)
 ARRAYS = ".npz"  # the arrays ``vertices`` and ``faces``, as NumPy stores them
 _NO_ARRAYS = Sentence("it has no arrays of numbers vertices and faces.")
 # What trimesh counts among the files of meshes: another name for .stl, and points without faces.
 _OTHERS = {"stl_ascii", "xyz"}
+_UP_IS_Z = re.compile(rb"<up_axis>\s*Z_UP\s*</up_axis>")
+_HEAD = 2**20  # bytes of a .dae in which it says so: before all numbers
 
 
 class ModelFileError(ReebError, OSError):
@@ -64,12 +67,12 @@ class Model:
     vertices : (n, 3) float64
         Positions, in the units and along the axes of the file.
     faces : (m, 3) int64
-        Triangles; in the order of the file, polygons cut into triangles.
+        Triangles, of vertices that are there; in the order of the file, polygons cut into triangles.
     polygon : (m,) int64
         Face of the file to which each triangle belongs; in files other than .obj, .ply, .off, .npz and those that
         Blender reads, whose readers cut polygons themselves, each triangle is a face.
     up : str
-        "y" or "z", the axis that is up in files of its kind.
+        "y" or "z", the axis that is up in files of its kind; of .dae, which say it, in the file.
     """
 
     name: str
@@ -126,7 +129,15 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
         raise NoReaderError(Sentence("{path} is none of {known}.", path=path, known=known))
     if not len(faces):
         raise ModelFileError(Sentence("There is no mesh in {path}.", path=path))
-    return Model(readable(path.stem), vertices, faces, polygon, "z" if kind in Z_UP else "y")
+    return Model(readable(path.stem), vertices, faces, polygon, "z" if kind in Z_UP or _says_z(path) else "y")
+
+
+def _says_z(path: Path) -> bool:
+    """Whether a file is a .dae that says of itself that z is up, as Blender writes them."""
+    if path.suffix.lower() != ".dae":
+        return False
+    with path.open("rb") as file:
+        return _UP_IS_Z.search(plain_text(file.read(_HEAD))) is not None
 
 
 def _check_is_file(path: Path) -> None:
@@ -181,7 +192,7 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
                 vertices, faces = data["vertices"], data["faces"]
             except (KeyError, ValueError) as error:  # there are none, or they are Python's own objects
                 raise ReebError(_NO_ARRAYS) from error
-    points, (corner, sizes) = positions(vertices), corners(faces)
+    points, (corner, sizes) = positions(vertices).astype(np.float64), corners(faces)
     if few := int((sizes < 3).sum()):
         raise ReebError(Sentence("{n} {n:face has|faces have} fewer than three corners.", n=few))
     triangles, polygon = fans(corner, sizes)
@@ -257,9 +268,12 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     faces = [mesh.faces + start for mesh, start in zip(meshes, first, strict=False)]
+    vertices = np.concatenate([np.empty((0, 3)), *(mesh.vertices for mesh in meshes)])
     triangles = np.concatenate([np.empty((0, 3), np.int64), *faces])
-    return (np.concatenate([np.empty((0, 3)), *(mesh.vertices for mesh in meshes)]), triangles,
-            np.arange(len(triangles)))
+    # Added to the number of its mesh's first vertex, one that is not there could be a vertex of the next mesh.
+    if any(((mesh.faces < 0) | (mesh.faces >= len(mesh.vertices))).any() for mesh in meshes):
+        raise ValueError(NOT_THERE)
+    return vertices, triangles, np.arange(len(triangles))
 
 
 def _read_by_blender(path: Path, blender: str | Path | None,

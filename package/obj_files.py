@@ -10,8 +10,8 @@ import numpy as np
 from .polygons_in_files import cut_polygons, places, plain_text
 
 _COMMENT = re.compile(rb"#[^\n]*")
-# A line that goes on in the next one.
-_CONTINUED = re.compile(rb"\\[ \t]*\n")
+# A line that goes on in the next one, if there is one.
+_CONTINUED = re.compile(rb"\\[ \t]*(?:\n|\Z)")
 _VERTEX, _FACE, _EITHER = (re.compile(rb"^[ \t]*" + line, re.MULTILINE)
                            for line in (rb"v[ \t]([^\n]*)", rb"f[ \t]([^\n]*)", rb"([vf])[ \t]"))
 # What follows the vertex in a corner: its texture coordinate and its normal.

@@ -9,6 +9,9 @@ import numpy as np
 
 from .core.mesh.ears import triangulated
 
+#: What is wrong with many a damaged file.
+NOT_THERE = "a face has a vertex that is not there"
+
 
 def plain_text(data: bytes) -> bytes:
     """The bytes of a text, without the mark with which some editors begin it; in UTF-8 if it is in UTF-16.
@@ -21,8 +24,10 @@ def plain_text(data: bytes) -> bytes:
 
 
 def places(rows: list[bytes]) -> np.ndarray:
-    """The first three numbers of each row of words, (n, 3) float64; raises ValueError where there are none."""
+    """The first three numbers of each row of words, (n, 3) float64; raises ValueError where there are less."""
     words = [row.split(None, 3)[:3] for row in rows]
+    if min(map(len, words), default=3) < 3:
+        raise ValueError("a vertex has fewer than three coordinates")
     return np.array(words, np.bytes_).astype(np.float64) if words else np.empty((0, 3))
 
 
@@ -55,6 +60,6 @@ def cut_polygons(
         A face has a vertex that is not there.
     """
     if ((corner < 0) | (corner >= len(vertices))).any():
-        raise ValueError("a face has a vertex that is not there")
+        raise ValueError(NOT_THERE)
     is_polygon = sizes > 2
     return vertices, *triangulated(vertices, corner[np.repeat(is_polygon, sizes)], sizes[is_polygon])

@@ -110,3 +110,20 @@ def test_what_a_reader_refuses_without_a_word_is_damaged(header, tmp_path):
     (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
     with pytest.raises(reeb_parts.ModelFileError, match=r"could not be read: \w+: .*[a-z]"):
         reeb_parts.read_model(tmp_path / "model.gltf")
+
+
+@pytest.mark.parametrize("index", [4, 5, 65535])
+@pytest.mark.parametrize("n_meshes", [1, 2])
+def test_a_face_with_a_vertex_that_is_not_there_is_damaged(index, n_meshes, header, tmp_path):
+    """It was read, with faces of no vertices; of several meshes they were faces of the next one."""
+    places = header["accessors"][primitive(header)["indices"]]
+    places["componentType"] = 5123
+    (tmp_path / "faces.bin").write_bytes(np.array([0, 2, 1, 0, 1, index, 0, 3, 2, 1, 2, 3], "<u2").tobytes())
+    header["bufferViews"].append({"buffer": len(header["buffers"]), "byteLength": 24})
+    header["buffers"].append({"uri": "faces.bin", "byteLength": 24})
+    places["bufferView"], places["byteOffset"] = len(header["bufferViews"]) - 1, 0
+    header["nodes"] = [{"mesh": 0}] * n_meshes
+    header["scenes"] = [{"nodes": list(range(n_meshes))}]
+    (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
+    with pytest.raises(reeb_parts.ModelFileError, match="could not be read: .*a face has a vertex that is not there"):
+        reeb_parts.read_model(tmp_path / "model.gltf")

@@ -26,6 +26,7 @@ FILES = {
     "no last end": SQUARE + "f 1 2 3 4",
     "continued": SQUARE.replace("v 1 1", "v 1\\\n1") + "f 1 2 \\\n3 4\n",
     "continued in windows": (SQUARE + "f 1 2\\\n 3 4\n").replace("\n", "\r\n"),
+    "continued at the end": SQUARE + "f 1 2 3 4 \\",
     "mark": "\ufeff" + SQUARE + "f 1 2 3 4\n",
     "lines and points": SQUARE + "p 1\nl 1 2 3\nf 1 2 3 4\nf 1 2\nf\n",
     "free forms": "cstype bezier\nvp 0 1\n" + SQUARE + "surf 0 1 0 1 1 2 3 4\nend\nf 1 2 3 4\n",
@@ -78,3 +79,11 @@ def test_polygons_of_all_sizes_are_fans_where_they_are_convex(tmp_path):
 def test_what_no_file_may_have_is_an_error(line, tmp_path):
     with pytest.raises(reeb_parts.ModelFileError, match="could not be read"):
         read(tmp_path / "damaged.obj", SQUARE + line + "\nf 1 2 3\n")
+
+
+@pytest.mark.parametrize(("name", "text"), [
+    ("flat.obj", "v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n"), ("flat.off", "OFF\n3 1 0\n0 0\n1 0\n1 1\n3 0 1 2\n")])
+def test_places_in_a_plane_are_no_vertices(name, text, tmp_path):
+    """If none had three coordinates, the model was read, with vertices of shape (n, 2)."""
+    with pytest.raises(reeb_parts.ModelFileError, match="a vertex has fewer than three coordinates"):
+        read(tmp_path / name, text)

@@ -70,13 +70,14 @@ def test_a_name_is_imported_when_it_is_used():
 #: The command in a Python in which no package is installed but those of a list.
 ALONE = """
 import sys
+from importlib.machinery import PathFinder
 from importlib.metadata import packages_distributions
 hidden = packages_distributions().keys() - set(sys.argv[3:])
-class Finder:
-    def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] in hidden:
-            raise ModuleNotFoundError(f"{name} is no dependency", name=name)
-sys.meta_path.insert(0, Finder())
+class Finder(PathFinder):
+    @classmethod
+    def find_spec(cls, name, path=None, target=None):
+        return None if name.partition(".")[0] in hidden else super().find_spec(name, path, target)
+sys.meta_path[sys.meta_path.index(PathFinder)] = Finder
 from reeb_parts.command.main import main
 sys.exit(main(["decompose", sys.argv[1], "--colored", sys.argv[2], "--n-parts", "3"]))
 """
@@ -177,6 +178,28 @@ def test_arrays_are_read_as_they_are(tmp_path):
     assert repr(model) == f"<Model tree: {len(shape.vertices)} vertices, {len(shape.faces)} triangles, y up>"
     assert (model.vertices == shape.vertices).all()
     assert (model.faces == shape.faces).all()
+
+
+@pytest.mark.parametrize("kind", ["<i4", ">f4", "<u8", "<f8"])
+def test_vertices_of_arrays_are_float64_whatever_is_stored(kind, tmp_path):
+    shape = shapes.octahedron()
+    np.savez(tmp_path / "one.npz", vertices=shape.vertices.astype(kind), faces=shape.faces.astype(">i2"))
+    model = reeb_parts.read_model(tmp_path / "one.npz")
+    assert (model.vertices.dtype, model.faces.dtype, model.polygon.dtype) == (np.float64, np.int64, np.int64)
+    assert (model.vertices == shape.vertices.astype(kind)).all()
+
+
+@pytest.mark.parametrize(("said", "up"), [
+    ("<up_axis>Z_UP</up_axis>", "z"), ("<up_axis>\n Y_UP\n</up_axis>", "y"), ("", "y")])
+def test_a_dae_says_which_axis_is_up(said, up, tmp_path):
+    """Models that Blender had written lay on their side in pictures."""
+    shape = trimesh.Trimesh(*shapes.octahedron(), process=False)
+    text = trimesh.exchange.dae.export_collada(shape).decode()
+    before, after = text[: text.index("<up_axis")], text[text.index("</up_axis>") + len("</up_axis>") :]
+    (tmp_path / "model.dae").write_text(before + said + after, encoding="utf-8")
+    model = reeb_parts.read_model(tmp_path / "model.dae")
+    assert model.up == up
+    assert np.allclose(np.sort(model.vertices[model.faces].reshape(-1)), np.sort(shape.triangles.reshape(-1)))
 
 
 def test_quads_of_arrays_are_one_face_each(tmp_path):
