@@ -31,6 +31,7 @@ from .records import (
     Settings,
     digest_of,
     failure,
+    is_done,
     write_record,
 )
 
@@ -41,13 +42,14 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     job : dict
-        ``path`` of the model, its ``name``, the ``folder`` of its results, the ``settings``, and ``blender``, the path
-        of one or None.
+        ``path`` of the model, its ``name``, the ``folder`` of its results, the ``settings``, ``blender``, the path of
+        one or None, and ``retry``, see ``is_done``.
 
     Returns
     -------
     answer : dict
-        ``status``, ``reason`` and ``seconds``.
+        ``status``, ``reason`` and ``seconds``; ``kept`` if it was done before: some time has passed since this job was
+        given out, in which another run may have come to the model.
 
     Raises
     ------
@@ -57,6 +59,8 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
     start = time.perf_counter()
     settings = Settings.from_dict(job["settings"])
     path, name = Path(job["path"]), job["name"]
+    if is_done(path, Path(job["folder"]), settings, job["retry"]):
+        return {"status": DONE, "reason": "", "seconds": round(time.perf_counter() - start, 4), "kept": True}
     digest = ""
     try:
         digest = _digest(path)

@@ -195,7 +195,9 @@ class _Batch:
                 for job, answer in answers:
                     if isinstance(answer, BaseException):
                         answer = self._lost(job, answer)
-                    if answer["status"] != DONE:
+                    if answer.get("kept"):
+                        self.kept += 1
+                    elif answer["status"] != DONE:
                         failed[answer["status"]] += 1
                         self.failed[job["name"]] = answer["status"], answer["reason"]
                         progress.set_postfix(failed, refresh=False)
@@ -229,7 +231,7 @@ class _Batch:
         memory = int(limit * 2**30) if limit else own
         return {"path": str(source.path), "name": source.name, "folder": str(self.folder(source)),
                 "settings": self.settings.to_dict(), "blender": self.blender, "memory_limit": memory,
-                "time_limit": self.options.time_limit}
+                "time_limit": self.options.time_limit, "retry": self.options.retry}
 
     def _lost(self, job: dict[str, Any], error: BaseException) -> dict[str, Any]:
         """Record a model whose workers ended one after the other."""

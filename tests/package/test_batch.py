@@ -346,7 +346,7 @@ def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models
 
 def job(path, folder, labels=".npy", **settings):
     """What a worker is given for a model."""
-    return {"path": str(path), "name": path.name, "folder": str(folder), "blender": None,
+    return {"path": str(path), "name": path.name, "folder": str(folder), "blender": None, "retry": False,
             "settings": Settings(Parameters(**settings), labels=labels).to_dict()}
 
 
@@ -477,16 +477,41 @@ def test_results_that_cannot_be_written_are_no_crash(models):
     assert answer["reason"] == "/proc/none/tree.ply could not be written: No such file or directory"
 
 
-def test_what_could_not_be_written_is_no_model_that_was_not_reached(models, tmp_path, monkeypatch, capsys):
-    """Where the record cannot be written either, tables and answer had "open", standard error the truth."""
-    (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "models").write_text("a file in the place of the folder")
-    monkeypatch.setattr(cluster, "spread", lambda client, function, jobs: ((job, do_model(job)) for job in jobs))
+def run_here(monkeypatch, models, out, spread=lambda client, function, jobs: ((job, do_model(job)) for job in jobs)):
+    """The exit status of a batch in this process, without a cluster."""
+    monkeypatch.setattr(cluster, "spread", spread)
     monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(
         SimpleNamespace(dashboard_link="", nthreads=lambda: {"": 1})))
     parser = argparse.ArgumentParser()
     command.add_options(parser)
-    status = command.run(parser.parse_args([str(models / "tree.ply"), "--out", str(tmp_path / "out")]))
+    return command.run(parser.parse_args([str(models), "--out", str(out)]))
+
+
+def test_what_another_run_did_after_it_was_given_out_is_not_done_again(models, tmp_path, monkeypatch, capsys):
+    """Each worker has models in advance: of ten, two runs that began together did nine twice."""
+    records = []
+
+    def spread(client, function, jobs):
+        waiting = list(jobs)
+        for one in waiting:  # by another run
+            assert "kept" not in do_model(one)
+        records.extend((tmp_path / "out").rglob(RECORD))
+        before = [record.stat().st_ino for record in records]
+        yield from ((one, do_model(one)) for one in waiting)
+        assert [record.stat().st_ino for record in records] == before
+
+    assert run_here(monkeypatch, models, tmp_path / "out", spread) == 1
+    captured = capsys.readouterr()
+    answer = json.loads(captured.out)
+    assert (answer["models"], answer["kept"], len(records)) == ({"done": 2, "refused": 1, "unreadable": 1}, 4, 4)
+    assert "damaged.ply" not in captured.err
+
+
+def test_what_could_not_be_written_is_no_model_that_was_not_reached(models, tmp_path, monkeypatch, capsys):
+    """Where the record cannot be written either, tables and answer had "open", standard error the truth."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "models").write_text("a file in the place of the folder")
+    status = run_here(monkeypatch, models / "tree.ply", tmp_path / "out")
     assert (status, json.loads(capsys.readouterr().out)["models"]) == (1, {"error": 1})
     (row,) = rows(tmp_path / "out" / "models.parquet")
     assert row["status"] == "error"

@@ -76,6 +76,6 @@ def test_who_asks_for_a_format_that_is_too_coarse_is_told(place, kind, words, re
     assert ("single precision" in done.stderr) == bool(words)
     assert words in done.stderr
     do_model({"path": str(tmp_path / "ring.npz"), "name": "ring.npz", "folder": str(tmp_path / "batch"),
-              "blender": None, "settings": Settings(Parameters(), parts=kind).to_dict()})
+              "blender": None, "retry": False, "settings": Settings(Parameters(), parts=kind).to_dict()})
     notes = json.loads((tmp_path / "batch" / RECORD).read_text())["model"]["notes"]
     assert any("single precision" in note and words in note for note in notes) == bool(words)
