@@ -93,7 +93,7 @@ def drop_former_group(block: bpy.types.ID, name: str) -> None:
 
 def keep(struct: bpy.types.bpy_struct, *names: str) -> None:
     """Some properties of Blender's will change."""
-    if _open:
+    if _open and not _open[0].would_remove(struct.id_data):
         for name in names:
             value = getattr(struct, name)
             on_failure(setattr, struct, name, value[:] if _is_array(struct, name) else value)
@@ -101,7 +101,7 @@ def keep(struct: bpy.types.bpy_struct, *names: str) -> None:
 
 def keep_keys(block: bpy.types.ID, *keys: str) -> None:
     """Some custom properties of a data block will change."""
-    if _open:
+    if _open and not _open[0].would_remove(block):
         for key in keys:
             value = block.get(key)
             if hasattr(value, "to_list"):  # else what is kept would change with the property
@@ -190,6 +190,11 @@ class Transaction:
 
     def is_new(self, block: bpy.types.ID) -> bool:
         return not any(block.session_uid in there for there in self._there.values())
+
+    def would_remove(self, block: bpy.types.ID) -> bool:
+        """Whether a block is a new object or its data: it goes, or has gone by then, and need not be as it was."""
+        # Collections and node trees may be part of others, which are not new.
+        return isinstance(block, (bpy.types.Object, bpy.types.Mesh, bpy.types.Curve)) and self.is_new(block)
 
     def keep_mesh(self, mesh: bpy.types.Mesh) -> None:
         if mesh not in self._meshes and not self.is_new(mesh):

@@ -104,6 +104,16 @@ def test_parts_fit_the_bed(run, model, tmp_path):
         assert np.linalg.norm(np.ptp(points, axis=0)) < np.linalg.norm([1.0, 1.2, 1.1]) * 1.01
 
 
+def test_what_fails_once_the_graph_is_drawn_is_taken_back(run, model, tmp_path, caplog):
+    """The curve of the graph is drawn more than once, and the former ones were gone: tracebacks said so."""
+    ended = run(model, "--bed", "1", "1", "1", "--save", tmp_path / "x.blend")
+    assert ended.status == 1
+    assert "There would be more than" in ended.err
+    assert [record.message for record in caplog.records] == []
+    assert not (tmp_path / "x.blend").exists()
+    assert [len(kind) for kind in (bpy.data.curves, bpy.data.objects, bpy.data.meshes)] == [0, 1, 1]
+
+
 def test_what_is_made_of_the_parts(run, model, tmp_path):
     """A UV map, an armature and rigid bodies in the scene, and an assembly of the parts, all whole."""
     ended = run(model, "--unwrap", "--armature", "--hulls", "unreal", "--hulls-per-part", "1", "--rigid-bodies",
