@@ -6,6 +6,7 @@ import base64
 import errno
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -61,6 +62,13 @@ def many(folder, count):
 def rows(path):
     """A table as a list of dicts."""
     return parquet.read_table(path).to_pylist()
+
+
+@pytest.mark.parametrize(("table", "schema"), [("models", MODELS), ("parts", PARTS)])
+def test_the_page_names_all_columns_of_the_tables(table, schema):
+    page = (ROOT / "docs" / "package.md").read_text(encoding="utf-8")
+    (cell,) = re.findall(rf"^\| `{table}\.parquet` \| (.*) \|$", page, re.M)
+    assert re.findall("`([a-z_]+)`", cell) == schema.names
 
 
 @pytest.fixture(scope="module")
