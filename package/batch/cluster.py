@@ -11,6 +11,7 @@ import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator
 from itertools import islice
+from multiprocessing import resource_tracker
 from typing import Any
 
 import dask
@@ -123,21 +124,39 @@ def _safe_path() -> Iterator[None]:
 @contextlib.contextmanager
 def _own_cluster(workers: int, dashboard: str) -> Iterator[Client]:
     """A cluster on this machine, see ``connected``; it ends with the block."""
-    # The workers inherit that they do not hear these: they are for this process, which ends them.
-    former = [signal.signal(number, signal.SIG_IGN) for number in OWN_SIGNALS]
+    with contextlib.ExitStack() as stack:
+        try:
+            # What needs memory are the processes of the models, which have limits of their own.
+            with _signals_held_back(), dask.config.set(QUIET):
+                cluster = stack.enter_context(LocalCluster(
+                    n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
+                    dashboard_address=dashboard, silence_logs=logging.CRITICAL))
+                client = stack.enter_context(Client(cluster))
+        except (OSError, RuntimeError) as error:
+            raise ClusterError(Sentence("No workers could be started: {reason}",
+                                        reason=_first_cause(error))) from error
+        yield client
+
+
+@contextlib.contextmanager
+def _signals_held_back() -> Iterator[None]:
+    """Hear what a terminal sends when the block ends; the workers that it starts never do: this process ends them."""
+    heard: list[int] = []
+    former = [signal.signal(number, lambda number, _: heard.append(number)) for number in OWN_SIGNALS]
+    mask = None
+    # What is started inherits which signals wait, where the system has that; it would not inherit a handler.
+    if hasattr(signal, "pthread_sigmask"):
+        resource_tracker.ensure_running()  # where Python starts this first, nothing waits any more
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, OWN_SIGNALS)
     try:
-        # What needs memory are the processes of the models, which have limits of their own.
-        with dask.config.set(QUIET):
-            cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
-                                   dashboard_address=dashboard, silence_logs=logging.CRITICAL)
-            client = Client(cluster)
-    except (OSError, RuntimeError) as error:
-        raise ClusterError(Sentence("No workers could be started: {reason}", reason=_first_cause(error))) from error
+        yield
     finally:
+        if mask is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         for number, handler in zip(OWN_SIGNALS, former, strict=True):
             signal.signal(number, handler)
-    with cluster, client:
-        yield client
+        for number in heard:
+            signal.raise_signal(number)
 
 
 def _first_cause(error: BaseException) -> BaseException:

@@ -485,6 +485,38 @@ def test_results_that_cannot_be_written_are_no_crash(models):
     assert answer["reason"] == "/proc/none/tree.ply could not be written: No such file or directory"
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="there Ctrl+C comes another way")
+@pytest.mark.parametrize("number", cluster.OWN_SIGNALS)
+def test_what_a_terminal_sends_while_workers_start_is_heard(number, monkeypatch):
+    """Ctrl+C in the first seconds was lost: the batch did all of its models."""
+    class Started:
+        ended = 0
+
+        def __init__(self, *_, **__):
+            os.kill(os.getpid(), number)
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            Started.ended += 1
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    former = signal.signal(number, stop)
+    try:
+        monkeypatch.setattr(cluster, "LocalCluster", Started)
+        monkeypatch.setattr(cluster, "Client", lambda _: nullcontext())
+        with pytest.raises(KeyboardInterrupt), cluster.connected(None, 1, ":0"):
+            pytest.fail("The workers have begun.")
+        assert signal.getsignal(number) is stop
+        assert number not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    finally:
+        signal.signal(number, former)
+    assert Started.ended == 1
+
+
 def run_here(monkeypatch, models, out, spread=lambda client, function, jobs: ((job, do_model(job)) for job in jobs)):
     """The exit status of a batch in this process, without a cluster."""
     monkeypatch.setattr(cluster, "spread", spread)
