@@ -7,6 +7,7 @@ as on an object without parts, goes on to Blender.
 
 from __future__ import annotations
 
+from importlib.resources import files
 from typing import Any
 
 import bpy
@@ -63,7 +64,7 @@ class ReebPartsTool(bpy.types.WorkSpaceTool):
     bl_idname = IDNAME
     bl_label = "Reeb Parts"
     bl_description = n_("Choose and change parts: what is under the pointer is filled and named")
-    bl_icon = "ops.generic.select_box"
+    bl_icon = str(files(__package__) / "parts")  # parts.dat; Blender adds the ending
     bl_cursor = "DEFAULT"
     bl_widget = "REEB_PARTS_GGT_hover"
     bl_keymap = KEYMAP

@@ -2,6 +2,7 @@
 """The tool of the toolbar: its keys call operators that there are, as they can be called; it comes and goes."""
 
 import sys
+from pathlib import Path
 
 import bpy
 import pytest
@@ -27,6 +28,18 @@ def keymap(toolbar):
 
 def test_the_tool_is_in_the_toolbar_once(toolbar):
     assert tools().count(toolbar.IDNAME) == 1
+
+
+def test_the_tool_has_an_icon_of_its_own_that_blender_can_read(toolbar):
+    """It had that of Box Select, and stood below it as if it were a second one."""
+    own = Path(f"{toolbar.ReebPartsTool.bl_icon}.dat")
+    blenders = Path(bpy.utils.system_resource("DATAFILES", path="icons"))
+    assert own.parent != blenders
+    content = own.read_bytes()
+    magic, rest = content[:8], content[8:]
+    assert magic == (blenders / "ops.generic.select_box.dat").read_bytes()[:8]
+    assert len(rest) % 18 == 0  # two bytes for each corner of each triangle, and four for its color
+    assert bpy.app.icons.new_triangles_from_file(str(own))
 
 
 def test_every_key_calls_an_operator_with_properties_that_it_has(toolbar):
