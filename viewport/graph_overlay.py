@@ -24,7 +24,7 @@ from .lines import Lines
 
 SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
 RIM, LIT = 1.35, 1.9  # of the dark rim, and of the bright one around it of a mark that is chosen, in radii
-WIDTH = 4.0  # of the lines
+WIDTH = 4.0  # of the lines, too
 COVER = 1.25  # radius of a mark that covers the empty behind it, in sizes of the empty
 _DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, around light and dark marks
 
@@ -127,7 +127,7 @@ def _draw_arcs(source: bpy.types.Object, items: list[bpy.types.Object]) -> None:
         _lines[source.session_uid] = key, Lines.of(colored_arcs, source.data, places)
     lines = _lines[source.session_uid][1]
     if lines is not None:
-        lines.draw(source.matrix_world, WIDTH * bpy.context.preferences.system.ui_scale)
+        lines.draw(source.matrix_world, WIDTH)
 
 
 def state(source: bpy.types.Object, items: list[bpy.types.Object]) -> tuple[object, ...]:

@@ -133,7 +133,7 @@ def draw_name() -> None:
     blf.size(0, TEXT * scale)
     blf.color(0, 1.0, 1.0, 1.0, 1.0)
     blf.enable(0, blf.SHADOW)
-    blf.shadow(0, 5, 0.0, 0.0, 0.0, 1.0)
+    blf.shadow(0, 6, 0.0, 0.0, 0.0, 0.8)  # an outline, as the fill is as light as the letters
     width, _ = blf.dimensions(0, words)
     left = min(_mouse[0] + 18 * scale, context.region.width - width - 4 * scale)
     blf.position(0, left, _mouse[1] + 12 * scale, 0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
@@ -14,6 +15,7 @@ from ..scene.errors import SceneError
 
 NEARER = 0.002  # by what share of its distance a fill is drawn nearer than the surface, in perspective
 FLAT = 2e-5  # and without, as a share of the depth of the view
+RIM, DARK = 2.0, (0.0, 0.0, 0.0, 0.5)  # how much wider than a line its rim is, which makes it seen on white, too
 ROUNDING = 1e-6  # in perspective, of that depth: far away the depths of all that lies nearer differ by no more
 
 
@@ -43,14 +45,26 @@ class Lines:
         return cls(*arrays) if len(arrays[0]) else None
 
     def draw(self, matrix: Matrix, width: float, color: tuple[float, ...] | None = None) -> None:
-        """Draw what is in the coordinates that a matrix takes to the world. width : in pixels."""
+        """Draw what is in the coordinates that a matrix takes to the world; in one color, with a dark rim.
+
+        width : in pixels of a screen without scaling.
+        """
+        scale = bpy.context.preferences.system.ui_scale
         self.shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        self.shader.uniform_float("lineWidth", width)
-        if color is not None:
-            self.shader.uniform_float("color", color)
         with gpu.matrix.push_pop():
             gpu.matrix.multiply_matrix(matrix)
-            self.batch.draw(self.shader)
+            for wide, shade in _strokes(width, color):
+                self.shader.uniform_float("lineWidth", wide * scale)
+                if shade is not None:
+                    self.shader.uniform_float("color", shade)
+                self.batch.draw(self.shader)
+
+
+def _strokes(width: float, color: tuple[float, ...] | None) -> list[tuple[float, tuple[float, ...] | None]]:
+    """What lines are drawn with, one over the other: widths and colors; the rim is as faint as they are."""
+    if color is None:
+        return [(width, None)]
+    return [(width + RIM, (*DARK[:3], DARK[3] * color[3])), (width, color)]
 
 
 class Surface:
