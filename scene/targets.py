@@ -131,6 +131,15 @@ def check_object(obj: bpy.types.Object | None) -> None:
         )
 
 
+def why_not(obj: bpy.types.Object | None) -> str:
+    """The sentence of ``check_object``, or nothing."""
+    try:
+        check_object(obj)
+    except SceneError as error:
+        return str(error)
+    return ""
+
+
 def check_at_rest(obj: bpy.types.Object) -> None:
     """As ``check_object``, and raise SceneError where the mesh is being edited, beside an active object that is not."""
     check_object(obj)
@@ -163,9 +172,9 @@ def _kind(obj: bpy.types.Object) -> str:
     """What sort of object it is, in Blender's own word."""
     prop = obj.bl_rna.properties["type"]
     word = prop.enum_items[obj.type].name
-    local = iface_(word, prop.translation_context)
-    # Other languages may write nouns with a capital.
-    return word.lower() if local == word else local
+    # Other languages may write nouns with a capital, and some words as English does: Text in German.
+    english = bpy.app.translations.locale[:2] in {"", "C", "en"}
+    return word.lower() if english else iface_(word, prop.translation_context)
 
 
 def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:

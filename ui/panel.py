@@ -30,6 +30,7 @@ TICKS = 90  # no boxes to tick: parts are marked with the tool, or by the menu
 FOLD = 18  # what folds a panel, before its words
 # What a row of the list has besides a part's name and share: its frame, the bar that scrolls it, the buttons beside it.
 FRAME, BAR, BESIDE = 12, 18, 28
+BETWEEN = 0.43  # share of its row that the number of parts has between the two buttons where all is narrow
 # By the region, whether its list has a bar; Blender does not tell. Of one that the user dragged shorter it is unknown.
 _scrolls: dict[int, bool] = {}
 
@@ -163,10 +164,11 @@ def _draw_decompose(layout: bpy.types.UILayout, room: Room, again: bool) -> None
 
 
 def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
-    """What there is to do, while there are no parts."""
+    """What there is to do, while there are no parts, or why it cannot be done with a mesh, as with a linked one."""
     obj = context.object
     if obj is not None and obj.type == "MESH":
-        text = iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is.")
+        text = (targets.why_not(obj)
+                or iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is."))
     elif obj is not None and targets.can_become_mesh(obj):
         text = targets.to_become_mesh(obj)
     else:
@@ -252,7 +254,8 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: R
     column.enabled = known
     fewer, more, count = iface_("Fewer", "Reeb Parts"), iface_("More", "Reeb Parts"), str(len(result.parts))
     row = column.row(align=True)
-    whole = room.has(fewer, iface_("Parts"), count, more, fields=1)
+    whole = (room.has(fewer, iface_("Parts"), count, more, fields=1)
+             and room.less((1 - BETWEEN) * room.width).has(iface_("Parts"), count, fields=1))
     if not whole:
         room.field(column, result, "n_parts", iface_("Parts"), count)
         row = room.row(column, fewer, more)
@@ -270,12 +273,11 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: R
 def facts(result: bpy.types.PropertyGroup) -> list[str]:
     """What came out, in two lines."""
     parts = iface_("{n} {n:part|parts}").format(n=Count(len(result.parts)))
-    graph = (
-        iface_("{n} {n:node|nodes}").format(n=Count(result.n_nodes)),
-        iface_("{n} {n:arc|arcs}").format(n=Count(result.n_arcs)),
-        iface_("{n} {n:loop|loops}").format(n=Count(result.n_loops)),
-    )
-    return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), ", ".join(graph)]
+    graph = iface_("{nodes}, {arcs}, {loops}").format(
+        nodes=iface_("{n} {n:node|nodes}").format(n=Count(result.n_nodes)),
+        arcs=iface_("{n} {n:arc|arcs}").format(n=Count(result.n_arcs)),
+        loops=iface_("{n} {n:loop|loops}").format(n=Count(result.n_loops)))
+    return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), graph]
 
 
 def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
@@ -13,11 +15,14 @@ from ..scene.errors import SceneError
 from ..scene.pieces import cut_list, origins, piece_checks, piece_objects
 from ..scene.reading.placing import length_words
 from .fitting import Room
-from .panel import SubPanel
+from .panel import BAR, FRAME, SubPanel
 
 #: Why a cut has no joint, see joints.CutJoints.
 REASONS = {"ROOM": n_("No room with a wall around it"), "BENT": n_("Too bent to have an axis"),
            "BODY": n_("A part is not closed"), "RESULT": n_("It would spoil a part")}
+
+# What a field of a choice has beside its word, and a label with an icon, in pixels of a screen without scaling.
+CHOICE, LABEL = 26, 38
 
 
 class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
@@ -33,21 +38,26 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         # How the button Separate, which is just above, makes objects.
         room.properties(column, settings, settings.rows, expanded={"which"})
         if settings.joints != "NONE":
-            self._draw_cuts(column, context.object)
+            self._draw_cuts(column, room, context.object)
         column.separator()
         room.properties(column, context.object.reeb_parts_made, ("explode",))
         self._draw_outputs(room, context.object)
 
-    def _draw_cuts(self, column: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    def _draw_cuts(self, column: bpy.types.UILayout, room: Room, obj: bpy.types.Object) -> None:
         """The cuts of the last time, each with what joins it and a choice for the next time."""
         made = obj.reeb_parts_made
         if made.cuts:
             rows = min(max(len(made.cuts), 2), 6)
             column.template_list("REEB_PARTS_UL_cuts", "", made, "cuts", made, "cut", rows=rows)
             active = made.cuts[min(made.cut, len(made.cuts) - 1)]
-            text = iface_("{n} of {width} mm").format(n=active.count, width=f"{active.width:.1f}")
-            if active.count or active.why:
-                column.label(text=text if active.count else iface_(REASONS[active.why]), translate=False)
+            lines = column.column(align=True)
+            if not _has_name(room, obj, made.cuts, active):
+                room.wrapped(lines, cut_list.cut_name(obj, active))
+            if active.count:
+                text = iface_("{n} {n:joint|joints}, {width} mm wide")
+                room.wrapped(lines, text.format(n=Count(active.count), width=f"{active.width:.1f}"))
+            elif active.why:
+                room.wrapped(lines, iface_(REASONS[active.why]))
 
     def _draw_outputs(self, room: Room, obj: bpy.types.Object) -> None:
         """Buttons that stay pressed for as long as there is what they make."""
@@ -72,13 +82,31 @@ class REEB_PARTS_UL_cuts(bpy.types.UIList):
     def draw_item(self, context: bpy.types.Context, layout: bpy.types.UILayout, data: bpy.types.PropertyGroup,
                   item: bpy.types.PropertyGroup, icon: int, active_data: bpy.types.PropertyGroup,
                   active_property: str) -> None:
-        row = layout.row(align=True)
+        room = Room(context)
+        # A row would take from both what does not fit.
+        row = layout.split(factor=1 - _joint_width(room, data.cuts) / _listed(room), align=True)
         obj = item.id_data
         joined = {"icon": "CHECKMARK" if item.count else "ERROR" if item.why else "BLANK1"}
         row.label(text=cut_list.cut_name(obj, item), translate=False, **joined)
-        side = row.row()
-        side.ui_units_x = 4.5
-        side.prop(item, "joint", text="")
+        row.prop(item, "joint", text="")
+
+
+def _joint_width(room: Room, cuts: Iterable[bpy.types.PropertyGroup]) -> float:
+    """Width of the choices of joints in the list of cuts: for the longest words there, or half of a row."""
+    kind = next(iter(cuts)).bl_rna.properties["joint"]
+    words = [iface_(kind.enum_items[joint].name, kind.translation_context) for joint in {cut.joint for cut in cuts}]
+    return min(max(map(room.text, words)) + CHOICE, 0.5 * _listed(room))
+
+
+def _has_name(room: Room, obj: bpy.types.Object, cuts: Iterable[bpy.types.PropertyGroup],
+              cut: bpy.types.PropertyGroup) -> bool:
+    """Whether the name of a cut fits into its row of the list."""
+    return LABEL + room.text(cut_list.cut_name(obj, cut)) + _joint_width(room, cuts) <= _listed(room)
+
+
+def _listed(room: Room) -> float:
+    """Width of a row in a list that has the whole panel."""
+    return max(room.width - FRAME - BAR, 1.0)
 
 
 class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):

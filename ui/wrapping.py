@@ -10,7 +10,8 @@ from collections.abc import Callable
 # What stays together: a word, or one letter of a script that has no spaces, each with the marks that open or close it.
 _OPENING, _CLOSING = r"[“‘（《「【(]*", r"[”’），。；：、！？》」】….,;:!?)%]*"
 _WIDE = r"[\u2e80-\u303f\u3040-\u9fff\uac00-\ud7af\uf900-\ufaff\uff00-\uff60]"
-_TOKEN = re.compile(rf"\s*(?:{_OPENING}{_WIDE}{_CLOSING}|(?:(?!{_OPENING}{_WIDE})\S)+{_CLOSING})")
+_COUNTED = rf"\d[\d.,]* {_WIDE}{_CLOSING}"  # as a number and the word that counts what follows
+_TOKEN = re.compile(rf"\s*(?:{_COUNTED}|{_OPENING}{_WIDE}{_CLOSING}|(?:(?!{_OPENING}{_WIDE})\S)+{_CLOSING})")
 
 
 def letters(text: str) -> int:

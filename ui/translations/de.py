@@ -144,6 +144,7 @@ TEXTS = {
     "{n} {n:node|nodes}": "{n} Knoten",
     "{n} {n:arc|arcs}": "{n} {n:Bogen|Bögen}",
     "{n} {n:loop|loops}": "{n} {n:Schleife|Schleifen}",
+    "{nodes}, {arcs}, {loops}": "{nodes}, {arcs}, {loops}",
     "Advanced": "Erweitert",
     # Vorschläge für Namen
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
@@ -360,7 +361,7 @@ TEXTS = {
         "Eine Linie um die Teile zeichnen, die in der Liste gewählt sind",
     "Show Cuts": "Schnitte zeigen",
     "Draw all borders between parts where Separate would cut them, by its setting Cuts":
-        "Alle Grenzen zwischen Teilen dort zeichnen, wo Trennen sie nach seiner Einstellung Schnitte schneiden würde",
+        "Alle Grenzen zwischen Teilen dort zeichnen, wo „Trennen“ sie nach „Schnitte“ schneiden würde",
     "The parameters that new scenes start with": "Die Parameter, mit denen neue Szenen beginnen",
     "The preferences were taken over": "Die Einstellungen wurden übernommen",
     # Die Liste der Teile
@@ -485,8 +486,8 @@ TEXTS = {
     "hulls and armatures":
         "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da. "
         "Eine UV-Map, die von Hand geändert oder umbenannt wurde, bleibt, ebenso übermalte Farben, von Hand geänderte "
-        "Gewichte des Skeletts und aus Teilen erstellte Objekte: getrennte Stücke, als eigene, die nicht zum Mesh "
-        "zurückführen, Hüllen und Skelette",
+        "Gewichte des Skeletts und aus Teilen erstellte Objekte: abgetrennte Stücke, als eigene, die nicht zum "
+        "Mesh zurückführen, Hüllen und Skelette",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "Vorgabe, Ausgabe und Überlagerung dieser Szene wie in neuen Szenen setzen; siehe Einstellungen, Add-ons",
     "Set the parameters back to those of the preset; some of them were changed":
@@ -659,7 +660,8 @@ TEXTS = {
     "How many hulls a part has at most; a part that one hull fits well has one":
         "Wie viele Hüllen ein Teil höchstens hat; ein Teil, zu dem eine Hülle gut passt, hat eine",
     "Make rigid bodies of the separated parts, held together at the cuts; press Play to see them fall":
-        "Starrkörper aus den getrennten Teilen erstellen, die an den Schnitten zusammenhalten; Abspielen lässt sie los",
+        "Starrkörper aus den abgetrennten Teilen erstellen, die an den Schnitten zusammenhalten; Abspielen lässt sie "
+        "fallen",
     "Joints": "Gelenke",
     "How parts hold together at the cuts": "Wie Teile an den Schnitten zusammenhalten",
     "Hinges": "Scharniere",
@@ -723,7 +725,7 @@ TEXTS = {
     "What Joints says": "Was unter Verbindungen steht",
     "What joins these two pieces when the parts are separated the next time":
         "Was diese beiden Stücke verbindet, wenn die Teile das nächste Mal getrennt werden",
-    "{n} of {width} mm": "{n} zu {width} mm",
+    "{n} {n:joint|joints}, {width} mm wide": "{n} {n:Verbindung|Verbindungen}, {width} mm breit",
     "Fit the Bed": "Passend zum Druckbett",
     "Cut parts that are longer than the printer's bed further, in planes across them":
         "Teile, die länger als das Bett des Druckers sind, weiter schneiden, in Ebenen quer durch sie",
@@ -733,11 +735,11 @@ TEXTS = {
     "{n} more {n:piece|pieces}, so that all fit the bed": "{n} {n:Stück|Stücke} mehr, damit alle ins Druckbett passen",
     "Not closed, so not cut to fit the bed: {names}":
         "Nicht geschlossen und darum nicht für das Druckbett geschnitten: {names}",
-    "Separated Pieces": "Getrennte Stücke",
+    "Separated Pieces": "Abgetrennte Stücke",
     "Write the pieces that were separated, with their joints and dowels, as they are now":
-        "Die getrennten Stücke schreiben, mit ihren Verbindungen und Dübeln, wie sie jetzt sind",
+        "Die abgetrennten Stücke schreiben, mit ihren Verbindungen und Dübeln, wie sie jetzt sind",
     "There are no separated parts of {name}. Separate them first.":
-        "Es gibt keine getrennten Teile von {name}. Bitte zuerst trennen.",
+        "Es gibt keine abgetrennten Teile von {name}. Bitte zuerst trennen.",
     "No room with a wall around it": "Kein Platz mit einer Wand ringsum",
     "Too bent to have an axis": "Zu gebogen für eine Achse",
     "A part is not closed": "Ein Teil ist nicht geschlossen",
@@ -861,7 +863,7 @@ TEXTS = {
     "Groups must be {n} whole numbers, one for each candidate.":
         "Gruppen müssen {n} ganze Zahlen sein, eine für jeden Kandidaten.",
     "Numbers must be {n} whole numbers, one for each part.":
-        "Nummern müssen {n} ganze Zahlen sein, eine für jeden Teil.",
+        "Nummern müssen {n} ganze Zahlen sein, eine für jedes Teil.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "Polygonnummern müssen {n} ganze Zahlen ab 0 sein, eine je Dreieck.",
     "{name} must be one of {choices}, not {value}.": "{name} muss eines von {choices} sein, nicht {value}.",
@@ -1105,7 +1107,7 @@ TEXTS = {
     "Move the boundary of each chosen part outwards, ring by ring":
         "Die Grenze jedes gewählten Teils Ring für Ring nach außen schieben",
     "Move the mouse left and right to slide it    A: all of it    Enter: confirm    Esc: cancel":
-        "Maus nach links und rechts: schieben    A: die ganze    Enter: bestätigen    Esc: abbrechen",
+        "Maus nach links und rechts: schieben    A: die ganze    Eingabe: bestätigen    Esc: abbrechen",
     "Neighbor": "Nachbar",
     "Nothing beyond the boundary can be taken or given: it is locked, or all there is.":
         "An der Grenze lässt sich nichts nehmen oder geben: Es ist gesperrt oder schon alles.",
@@ -1128,8 +1130,8 @@ TEXTS = {
     "{rings} {rings:ring|rings}, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm  "
     "  "
     "Esc: cancel":
-        "{rings} {rings:Ring|Ringe}, {low} bis {high}    Rad, Zahl: Ringe, minus nach innen    Klick, Enter: fertig   "
-        " Esc: zurück",
+        "{rings} {rings:Ring|Ringe}, {low} bis {high}    Rad, Zahl: Ringe, minus nach innen    "
+        "Klick, Eingabe: bestätigen    Esc: abbrechen",
     "The pieces of {name} are of other parts than are shown now: separate them again.":
         "Die Stücke von {name} sind von anderen Teilen, als jetzt zu sehen sind: bitte neu trennen.",
 }

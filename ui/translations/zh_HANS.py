@@ -145,6 +145,7 @@ TEXTS = {
     "{n} {n:node|nodes}": "{n} 个节点",
     "{n} {n:arc|arcs}": "{n} 条弧",
     "{n} {n:loop|loops}": "{n} 个环",
+    "{nodes}, {arcs}, {loops}": "{nodes}，{arcs}，{loops}",
     "Advanced": "高级",
     # 名称建议
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
@@ -462,7 +463,7 @@ TEXTS = {
     "have changed, and the objects made of parts: separated pieces, as your own that do not lead back to the mesh, "
     "hulls and armatures":
         "移除 Reeb Parts 添加到所选网格的一切；恢复之前的内容。您更改或重命名过的 UV 贴图、您绘制过的颜色、您更改过的"
-        "骨架权重会保留，由部件创建的物体也会保留：已分离的各块（成为您自己的物体，不再与原网格关联）、凸壳和骨架",
+        "骨架权重会保留，由部件创建的物体也会保留：分离出的各块（成为您自己的物体，不再与原网格关联）、凸壳和骨架",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "将此场景的预设、输出和叠加设为与新场景相同；参见偏好设置的“插件”",
     "Set the parameters back to those of the preset; some of them were changed":
@@ -506,9 +507,9 @@ TEXTS = {
     "Add the part to those that are chosen, or take it away again": "将部件添加到所选部件中，或从中移除",
     "Number of the part that becomes the active one; 0 for the part at the location":
         "成为活动部件的部件编号；0 表示该位置处的部件",
-    "Marked": "已标记",
+    "Marked": "已勾选",
     "With a number of a part: numbers of the parts that are marked, separated by commas":
-        "与部件编号一起使用：已标记部件的编号，以逗号分隔",
+        "与部件编号一起使用：已勾选部件的编号，以逗号分隔",
     "Location": "位置",
     "Make one part of the parts marked in the list; it takes the name of the active one":
         "将列表中勾选的部件合并为一个；采用活动部件的名称",
@@ -610,7 +611,7 @@ TEXTS = {
         "（物体 > 关系 > 创建单一用户 > 物体和数据）并重试。",
     "{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: no neck to bend at":
         "{n} 个部件随其所连的部件一起移动：没有可弯折的颈部",
-    "Move the Mesh": "移动网格",
+    "Move the Mesh": "带动网格",
     "Add an Armature modifier, so that posing the bones moves the parts": "添加骨架修改器，使骨骼的姿态带动部件",
     "Make convex hulls of each part, of at most 64 corners, with which games and simulations collide":
         "为每个部件创建凸壳，最多 64 个角点，供游戏和模拟进行碰撞",
@@ -667,7 +668,7 @@ TEXTS = {
     "No joint where it would have left a part open or pierced: {cuts}": "接头会使部件开口或被穿透，因此无接头：{cuts}",
     "What Joints says": "按“接头”的设置",
     "What joins these two pieces when the parts are separated the next time": "下次分离部件时用什么连接这两块",
-    "{n} of {width} mm": "{n} 个，宽 {width} 毫米",
+    "{n} {n:joint|joints}, {width} mm wide": "{n} 个接头，宽 {width} 毫米",
     "Fit the Bed": "适合打印床",
     "Cut parts that are longer than the printer's bed further, in planes across them":
         "将长于打印床的部件沿横向平面继续切开",
@@ -676,10 +677,10 @@ TEXTS = {
         "可打印的宽度、深度和高度，以毫米为单位；各块可以旋转以放入",
     "{n} more {n:piece|pieces}, so that all fit the bed": "为适合打印床而多出 {n} 块",
     "Not closed, so not cut to fit the bed: {names}": "未封闭，因此未按打印床切开：{names}",
-    "Separated Pieces": "已分离的块",
+    "Separated Pieces": "分离出的块",
     "Write the pieces that were separated, with their joints and dowels, as they are now":
-        "写出已分离的各块，连同接头和圆棒，保持当前状态",
-    "There are no separated parts of {name}. Separate them first.": "{name} 没有已分离的部件。请先分离。",
+        "写出分离出的各块，连同接头和圆棒，保持当前状态",
+    "There are no separated parts of {name}. Separate them first.": "{name} 没有分离出的部件。请先分离。",
     "No room with a wall around it": "没有留出壁厚的空间",
     "Too bent to have an axis": "过于弯曲，没有轴线",
     "A part is not closed": "有部件未封闭",
@@ -813,7 +814,7 @@ TEXTS = {
         "分解 {name} 的进程意外终止（{reason}）；未更改任何内容。请重试；如果再次发生，请报告。",
     "Cancelled; nothing was changed": "已取消；未更改任何内容",
     "{command} was ended with its window; nothing was changed.":
-        "{command}已随其窗口结束；未作任何更改。",
+        "{command} 已随其窗口结束；未作任何更改。",
     "{name} is gone; its parts were computed in vain.": "{name} 已不存在；其部件的计算结果未被使用。",
     "{name} was changed while its parts were computed. Decompose it again.":
         "{name} 在计算部件期间被更改。请重新分解。",
@@ -851,9 +852,9 @@ TEXTS = {
     "Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel":
         "在模型上拖动以绘制    Ctrl 加滚轮，[ ]：大小    回车：确认    Esc：取消",
     "Click the graph or the surface to cut the part there    Enter, Esc: end":
-        "单击图或表面以在该处切割部件    回车，Esc：结束",
+        "单击图或表面以在该处切割部件    回车、Esc：结束",
     "Click a part or the graph to choose it    Shift: several    Enter, Esc: end":
-        "单击部件或图以选择部件    Shift：多选    回车，Esc：结束",
+        "单击部件或图以选择部件    Shift：多选    回车、Esc：结束",
     "This works in Object Mode, where the parts can be seen.": "此操作在物体模式中进行，以便看到部件。",
     "This works over a 3D viewport.": "此操作需在 3D 视图中进行。",
     "The object was changed meanwhile.": "物体在此期间被更改。",
@@ -911,7 +912,7 @@ TEXTS = {
         "{n} 个开放边顶点与其他顶点重合，但无法相连：部件在该处保持开放",
     "The active object is not a part that was separated from another one": "活动物体不是从其他物体分离出的部件",
     "The object that {name} was separated from is not in this file.":
-        "{name}所分离自的物体不在此文件中。",
+        "{name} 所分离自的物体不在此文件中。",
     "Seams around {n} {n:part|parts}": "{n} 个部件周围的缝合边",
     "The seams are yours alone again": "现在只剩您自己的缝合边",
     "{n} {n:part is a face set|parts are face sets}": "{n} 个部件现为面组",
@@ -978,7 +979,7 @@ TEXTS = {
         "边界处没有可取得或让出的面：已锁定，或已是全部。",
     "Number of the part at which the boundary slides; 0 for all of the boundary":
         "边界在其处滑移的部件编号；0 表示全部边界",
-    "Rings": "环",
+    "Rings": "圈数",
     "what is left is in {n} {n:part|parts} more": "剩余部分多分成 {n} 个部件",
     "nothing is left of {names}": "{names} 已全部并入其他部件",
     "what is left of {givers} is in {n} {n:part|parts} more: {names}": "{givers} 的剩余部分多分成 {n} 个部件：{names}",

@@ -141,7 +141,7 @@ def test_scaled_to_nothing(obj):
     refused("area")
 
 
-def test_linked_data(obj, tmp_path):
+def test_linked_data(obj, package, tmp_path):
     path = str(tmp_path / "library.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.read_homefile(use_empty=True)
@@ -151,6 +151,12 @@ def test_linked_data(obj, tmp_path):
     bpy.context.scene.collection.objects.link(linked)
     bpy.context.view_layer.objects.active = linked
     refused("linked")
+    said = importlib.import_module(f"{package}.scene.targets").why_not(linked)  # in the panel, before the button
+    assert re.fullmatch(r"Tree is linked from .*library\.blend and cannot be written\. Make it local .*\.", said)
+
+
+def test_nothing_is_said_of_a_mesh_that_can_be_decomposed(obj, package):
+    assert importlib.import_module(f"{package}.scene.targets").why_not(obj) == ""
 
 
 def test_what_is_linked_from_a_file_that_is_gone_is_said_to_be(obj, tmp_path):

@@ -20,6 +20,7 @@ from bpy.app.translations import pgettext_iface as iface_
 
 ENGLISH = {
     "no object": "There is no active object. Select a mesh and try again.",
+    "kind": "Sign is not a mesh but of the type text.",
     "too few faces": "The mesh has only 1 of the 4 faces that the smallest solid has. Choose a larger mesh.",
     "report": r"Info: 5 parts in \d+\.\d s",
     "note": "Tree was decomposed as it is before its modifier was applied.",
@@ -33,6 +34,7 @@ ENGLISH = {
 }
 GERMAN = {
     "no object": "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
+    "kind": "Sign ist kein Mesh, sondern vom Typ Text.",
     "too few faces": "Das Mesh hat nur 1 der 4 Flächen, die der kleinste Körper hat. Bitte ein größeres Mesh wählen.",
     "report": r"Info: 5 Teile in \d+\.\d s",
     "note": "Tree wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
@@ -46,10 +48,11 @@ GERMAN = {
 }
 CHINESE = {
     "no object": "没有活动物体。请选择一个网格并重试。",
+    "kind": "Sign 不是网格，而是 文本 类型。",
     "too few faces": "网格只有 1 个面，而最小的实体有 4 个面。请选择更大的网格。",
     "report": r"信息: 5 个部件，用时 \d+\.\d 秒",
     "note": "Tree 按应用其修改器之前的状态分解。",
-    "facts": [r"5 个部件，用时 \d+\.\d\d 秒", "10 个节点, 9 条弧, 0 个环"],
+    "facts": [r"5 个部件，用时 \d+\.\d\d 秒", "10 个节点，9 条弧，0 个环"],
     "locked": "Part 01 已锁定。请先在列表中解锁。",
     "progress": "BODY: Reeb 图",
     "SIGKILL": r"内存不足，无法分解 Tree（\d+ 个顶点）；未更改任何内容。请.*。",
@@ -128,6 +131,15 @@ OF_SEVERAL = {
 }
 
 
+def test_a_key_is_called_the_same_in_all_that_says_what_keys_do(languages):
+    """In German Enter was Eingabe here and Enter there."""
+    for code, word in (("de", "Eingabe"), ("zh_HANS", "回车")):
+        for (_, english), text in languages[code].items():
+            if "Enter" in english:
+                assert word in text
+                assert "Enter" not in text
+
+
 def test_words_agree_with_one(package, wanted):
     count = importlib.import_module(f"{package}.core.sentence").Count
     several = re.compile(
@@ -193,6 +205,14 @@ def test_blender_says_what_our_dictionaries_say(said, languages):
 
 def test_errors_of_the_scene(said):
     with pytest.raises(RuntimeError, match=re.escape(said["no object"])):
+        bpy.ops.reeb_parts.decompose()
+
+
+def test_a_kind_of_object_is_written_as_the_language_does(said):
+    """Text is the same word in German, where nouns have a capital."""
+    bpy.ops.object.text_add()
+    bpy.context.object.name = "Sign"
+    with pytest.raises(RuntimeError, match=re.escape(said["kind"])):
         bpy.ops.reeb_parts.decompose()
 
 

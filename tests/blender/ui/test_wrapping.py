@@ -24,6 +24,11 @@ def test_chinese_is_broken_between_letters_but_not_before_what_closes(wrapping):
     assert wrapping.lines("部件 Part 01 已锁定", 10) == ["部件 Part", "01 已锁定"]
 
 
+def test_a_number_stays_with_the_word_that_counts_in_chinese(wrapping):
+    assert wrapping.lines("17 个节点，16 条弧，0 个环", 23) == ["17 个节点，16 条弧，", "0 个环"]
+    assert wrapping.lines("用时 9.49 秒", 10) == ["用时", "9.49 秒"]
+
+
 def test_every_message_fits_and_is_whole(wrapping, package):
     dictionary = importlib.import_module(f"{package}.ui.translations").dictionary()
     for texts in dictionary.values():
