@@ -150,7 +150,7 @@ class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
         items=[("ALL", "All", "Mark every part"), ("NONE", "None", "Mark no part"),
                ("INVERT", "Invert", "Mark the parts that are not chosen"),
                ("SMALL", "Smaller", "Mark the parts smaller than the active one"),
-               ("FACES", "Of selected faces", "Mark the parts that have selected faces")],
+               ("FACES", "Of Selected Faces", "Mark the parts that have selected faces")],
     )
 
     def run(self, context: bpy.types.Context) -> None:

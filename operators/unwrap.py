@@ -33,8 +33,8 @@ class REEB_PARTS_OT_unwrap(SelectedPartsOperator, bpy.types.Operator):
     )
     method: bpy.props.EnumProperty(
         name="Method", default="MINIMUM_STRETCH",
-        items=[("MINIMUM_STRETCH", "Minimum stretch", "Areas and angles as even as can be"),
-               ("ANGLE_BASED", "Angle based", "Angles even, areas less; faster"),
+        items=[("MINIMUM_STRETCH", "Minimum Stretch", "Areas and angles as even as can be"),
+               ("ANGLE_BASED", "Angle Based", "Angles even, areas less; faster"),
                ("CONFORMAL", "Conformal", "The fastest, and the least even")],
         description="How faces are laid flat",
     )

@@ -35,6 +35,33 @@ def test_properties_mirror_the_parameters(parameters, where):
         assert mirrored.description
 
 
+# Written small within a label, as Blender does.
+SMALL = {"of", "in", "into", "at", "to", "from", "or", "and", "by", "with", "the", "a", "per", "on", "for", "as",
+         "between", "along", "glTF"}
+
+
+def labels(operator):
+    """All that Blender shows of an operator: its label and those of its properties and their choices."""
+    yield operator.name
+    for prop in operator.properties:
+        if prop.type not in {"POINTER", "COLLECTION"} and not prop.is_hidden:  # of which it shows nothing
+            yield prop.name
+            yield from (item.name for item in prop.enum_items_static) if prop.type == "ENUM" else ()
+
+
+def test_labels_are_in_title_case_and_tooltips_end_without_a_stop():
+    """As Blender's own; Of selected faces and Minimum stretch were not."""
+    wrong = []
+    for name in dir(bpy.ops.reeb_parts):
+        operator = getattr(bpy.ops.reeb_parts, name).get_rna_type()
+        wrong += [label for label in labels(operator) for word in label.split()
+                  if word[0].islower() and word not in SMALL]
+        wrong += [text for text in (operator.description, *(prop.description for prop in operator.properties))
+                  if text.endswith(".")]
+    assert len(dir(bpy.ops.reeb_parts)) > 40
+    assert wrong == []
+
+
 def test_what_does_something_when_it_is_set_cannot_be_animated(package):
     """A frame that is shown sets nothing: the slider would move, and the parts would stay. Explode heeds frames."""
     classes = importlib.import_module(f"{package}.scene.result.schema").CLASSES

@@ -523,7 +523,7 @@ TEXTS = {
     "Mark the parts that are not chosen": "Die Teile ankreuzen, die nicht gewählt sind",
     "Smaller": "Kleinere",
     "Mark the parts smaller than the active one": "Die Teile ankreuzen, die kleiner als das aktive sind",
-    "Of selected faces": "Ausgewählter Flächen",
+    "Of Selected Faces": "Ausgewählter Flächen",
     "Mark the parts that have selected faces": "Die Teile ankreuzen, die ausgewählte Flächen haben",
     "Choose parts by clicking on the model or its graph; Shift chooses several":
         "Teile durch Klicken auf das Modell oder seinen Graphen wählen; Umschalt wählt mehrere",
@@ -601,12 +601,12 @@ TEXTS = {
     "texture":
         "Teile, deren Meshs Spiegelbilder voneinander sind, übereinander legen, sodass beide einen Platz in der "
         "Textur teilen",
-    "Minimum stretch": "Geringste Dehnung",
+    "Minimum Stretch": "Geringste Dehnung",
     "Areas and angles as even as can be": "Flächen und Winkel so gleichmäßig wie möglich",
     "Angles even, areas less; faster": "Winkel gleichmäßig, Flächen weniger; schneller",
     "The fastest, and the least even": "Am schnellsten und am wenigsten gleichmäßig",
     "How faces are laid flat": "Wie Flächen flach gelegt werden",
-    "Angle based": "Winkelbasiert",
+    "Angle Based": "Winkelbasiert",
     "Conformal": "Konform",
     "Write each part to a file of its own, or all to one, in a folder; files of the same names are replaced":
         "Jedes Teil in eine eigene Datei schreiben, oder alle in eine, in einem Ordner; Dateien gleichen Namens werden "

@@ -497,7 +497,7 @@ TEXTS = {
     "Mark the parts that are not chosen": "勾选未选中的部件",
     "Smaller": "较小",
     "Mark the parts smaller than the active one": "勾选小于活动部件的部件",
-    "Of selected faces": "所选面的部件",
+    "Of Selected Faces": "所选面的部件",
     "Mark the parts that have selected faces": "勾选含有所选面的部件",
     "Choose parts by clicking on the model or its graph; Shift chooses several":
         "在模型或其图上单击以选择部件；按住 Shift 可选择多个",
@@ -566,12 +566,12 @@ TEXTS = {
     "Lay parts whose meshes are mirror images of each other over each other, so that both share one place in the "
     "texture":
         "将网格互为镜像的部件相互重叠放置，使二者共用纹理中的同一位置",
-    "Minimum stretch": "最小拉伸",
+    "Minimum Stretch": "最小拉伸",
     "Areas and angles as even as can be": "使面积和角度尽可能均匀",
     "Angles even, areas less; faster": "角度均匀，面积次之；较快",
     "The fastest, and the least even": "最快，但最不均匀",
     "How faces are laid flat": "面的展平方式",
-    "Angle based": "基于角度",
+    "Angle Based": "基于角度",
     "Conformal": "共形",
     "Write each part to a file of its own, or all to one, in a folder; files of the same names are replaced":
         "将每个部件写入单独的文件，或全部写入一个文件，存放在一个文件夹中；同名文件会被替换",
