@@ -293,7 +293,9 @@ def _vertex_field(
 def _body_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterator[Sentence]:
     """Sentences about pieces decomposed together: how many bodies they form, how many form none."""
     if n_bodies == 1 and n_cut > 1:
-        yield Sentence("{n} pieces that touch form one body.", n=n_cut)
+        yield Sentence(
+            "{n} pieces that touch, or nearly so, form one body; with Pieces: Separate each is decomposed on its own.",
+            n=n_cut)
     elif n_bodies > 1:
         yield Sentence("{n} pieces form {bodies} bodies; what touches is decomposed together.",
                        n=n_cut, bodies=n_bodies)

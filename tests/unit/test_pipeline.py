@@ -383,7 +383,8 @@ def test_two_pieces_that_pass_through_each_other_are_one_body(preset):
     shape = shapes.together(model("tree"), model("dumbbell"))
     result = sound_triangles(shape, preset)
     assert result.graph.n_components == 1
-    assert noted(result, "2 pieces that touch form one body.")
+    assert noted(result, "2 pieces that touch, or nearly so, form one body; with Pieces: Separate each is "
+                         "decomposed on its own.")
     assert 0 <= result.field.min() < 0.02
     assert 0.98 < result.field.max() <= 1
     np.testing.assert_array_equal(
@@ -438,7 +439,8 @@ def test_pieces_scaled_moved_and_permuted(name, preset):
 def test_a_table_of_loose_boxes_is_one_body_of_a_top_and_four_legs():
     result = sound_triangles(BODIES["table"](), Parameters())
     assert result.graph.n_components == 1
-    assert noted(result, "5 pieces that touch form one body.")
+    assert noted(result, "5 pieces that touch, or nearly so, form one body; with Pieces: Separate each is "
+                         "decomposed on its own.")
     assert same_up_to_names(result.parts(n_parts=5).labels, np.repeat(np.arange(5), 12))
 
 

@@ -765,7 +765,8 @@ TEXTS = {
     "{type} is no mesh: give vertices and faces.": "{type} ist kein Mesh: nötig sind vertices und faces.",
     "{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.":
         "Maskierte Zahlen: {n}. Lassen Sie die Punkte und Flächen weg, zu denen sie gehören.",
-    "{n} pieces that touch form one body.": "{n} Stücke, die sich berühren, bilden einen Körper.",
+    "{n} pieces that touch, or nearly so, form one body; with Pieces: Separate each is decomposed on its own.":
+        "{n} Stücke, die sich (fast) berühren, bilden einen Körper; mit Stücke: Getrennt wird jedes für sich zerlegt.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} Stücke bilden {bodies} Körper; was sich berührt, wird gemeinsam zerlegt.",
     "{n} small {n:piece is one part|pieces are one part each}.": "Kleine Stücke, die je ein einziges Teil sind: {n}.",

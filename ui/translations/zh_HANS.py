@@ -702,7 +702,8 @@ TEXTS = {
     "{type} is no mesh: give vertices and faces.": "{type} 不是网格：需要 vertices 和 faces。",
     "{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.":
         "{n} 个数值被遮罩。请去掉含有它们的顶点和面。",
-    "{n} pieces that touch form one body.": "{n} 个相互接触的块构成一个整体。",
+    "{n} pieces that touch, or nearly so, form one body; with Pieces: Separate each is decomposed on its own.":
+        "{n} 个相互接触或几乎接触的块构成一个整体；“块：各自”会分别分解每一块。",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} 个块构成 {bodies} 个整体；相互接触的块一起分解。",
     "{n} small {n:piece is one part|pieces are one part each}.": "{n} 个小块各为一个部件。",

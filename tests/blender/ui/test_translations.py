@@ -118,7 +118,8 @@ def test_values_have_their_places_in_every_language(languages):
 
 # Said of several only; of one, nothing is said or something else.
 OF_SEVERAL = {
-    "{n} pieces that touch form one body.", "{n} objects share this mesh; all of them show its parts.",
+    "{n} pieces that touch, or nearly so, form one body; with Pieces: Separate each is decomposed on its own.",
+    "{n} objects share this mesh; all of them show its parts.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.",
     "{name} was decomposed as it is before its {n} modifiers were applied.",
     "{n} loose parts are decomposed each on its own.", "All {n} faces have zero area. Check the scale of the object.",
