@@ -50,13 +50,15 @@ def read(items: Any, key: str, kind: DTypeLike, width: int = 1) -> np.ndarray:
 
 
 def element_values(mesh: bpy.types.Mesh, items: str, key: str) -> np.ndarray:
-    """A property of all polygons, edges or vertices of a mesh that Blender keeps in an attribute; Object Mode.
+    """A property of all polygons, edges or vertices of a mesh that Blender keeps in an attribute.
+
+    In Edit Mode, as it was when that began: there the elements alone tell it.
 
     items, key : of _KEPT_IN. From the elements themselves, Blender 5 looks for the attribute anew at each of them, past
     all vertex groups: that takes a hundred times as long where there are hundreds, of parts or of bones.
     """
     elements, kind = getattr(mesh, items), _VALUES[_KEPT_IN[items, key][1]][1]
-    if bpy.app.version < (5, 0):
+    if bpy.app.version < (5, 0) or mesh.is_editmode:
         return read(elements, key, kind)
     attribute = _kept_in(mesh, items, key)
     return np.zeros(len(elements), kind) if attribute is None else attribute_values(attribute)

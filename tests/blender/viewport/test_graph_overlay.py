@@ -92,6 +92,18 @@ def test_arcs_keep_their_colours_in_edit_mode(obj, arcs):
         assert np.array_equal(one, other)
 
 
+def test_arcs_of_hidden_parts_are_not_drawn_in_edit_mode_either(obj, arcs):
+    """Where Isolate leaves one part: all of the graph came back with Edit Mode."""
+    whole = arcs()
+    obj.data.reeb_parts.active = 0
+    bpy.ops.reeb_parts.isolate()
+    before = arcs()
+    assert 0 < len(before[0]) < len(whole[0])
+    bpy.ops.object.mode_set(mode="EDIT")
+    for one, other in zip(before, arcs(), strict=True):
+        assert np.array_equal(one, other)
+
+
 def test_arcs_are_out_of_date_once_edits_are_left(package, obj, arcs):
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
