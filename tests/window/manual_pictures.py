@@ -264,10 +264,13 @@ def joined():
 
 
 def boned():
+    """Without the graph, which would lie over the bones."""
+    yield from pointer.search("Show or Hide Graph")
+    yield 0.3
     yield from pointer.search("Make Armature")
     yield 0.6
     pointer.shot("armature.png", MODEL)
-    yield from pointer.tap("ctrl+z")
+    yield from pointer.tap("ctrl+z", "ctrl+z")
     yield 0.4
 
 
