@@ -57,7 +57,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     found: list[bpy.types.Object] = []
     names, place_of = part_names.all_names(obj.data), placing.world_matrix(obj)
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
-        part = part_names.with_object(obj, names[number])
+        part = part_names.with_object(obj, names[number], names.values())
         for place, hull in enumerate(several, 1):
             after = f"_{place:02d}-convcolonly" if len(several) > 1 else "-convcolonly"
             name = _fitting("", part, after) if engine == "GODOT" else _fitting("UCX_", obj.name,

@@ -126,7 +126,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
             part = result.parts.add()
             part.number = number
             part.own_name = own_names[label]
-            part.name = kept_names.get(number) or part_names.distinct(own_names[label], kept_names.values())
+            part.name = part_names.shown_name(number, own_names[label], kept_names)
             part.color = shades[label]
             part.share = numbered.parts.share[label]
             part.middle = middles[label]

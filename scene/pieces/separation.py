@@ -248,7 +248,7 @@ def _objects(run: _Run, meshes: dict[int, bpy.types.Mesh], names: dict[int, str]
     pieces = []
     for key, mesh in meshes.items():
         number = part.get(key, key)
-        piece = _piece(run, mesh, part_names.with_object(obj, names[key]))
+        piece = _piece(run, mesh, part_names.with_object(obj, names[key], names.values()))
         by_extent.set_offsets(piece, offsets)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER], piece[FACES] = number, faces_of(face_numbers, number)

@@ -20,16 +20,23 @@ _LONGEST, _ROOM = 63, 8  # bytes of a name in Blender, and of the longest number
 
 
 def part_name(mesh: bpy.types.Mesh, number: int) -> str:
-    """The name that the user gave to a part, or else its default name."""
-    entry = _kept(mesh, number)
-    return entry.name if entry is not None and entry.name else own_name(mesh, number)
+    """The name that the user gave to a part, or else its own: as the list has it where it lists the part."""
+    return shown_name(number, own_name(mesh, number), kept_names(mesh))
 
 
 def all_names(mesh: bpy.types.Mesh) -> dict[int, str]:
     """What ``part_name`` says of each part of the list."""
     kept = kept_names(mesh)
-    return {part.number: kept.get(part.number) or part.own_name or default_name(part.number)
+    return {part.number: shown_name(part.number, part.own_name or default_name(part.number), kept)
             for part in mesh.reeb_parts.parts}
+
+
+def shown_name(number: int, own: str, kept: dict[int, str]) -> str:
+    """What a part is called: as the user says, or else its own name, numbered if the user gave that to another part.
+
+    kept : of ``kept_names``.
+    """
+    return kept.get(number) or distinct(own, kept.values())
 
 
 def own_name(mesh: bpy.types.Mesh, number: int) -> str:
@@ -173,9 +180,13 @@ def without_side(name: str) -> str:
     return re.sub(r"\.[LR](?=(\.\d{3,})?$)", "", name)
 
 
-def with_object(obj: bpy.types.Object, name: str) -> str:
-    """The name of a part as an object or a file of its own: with the object's before it, unless it is there."""
-    return name if name.startswith(f"{obj.name} ") else f"{obj.name} {name}"
+def with_object(obj: bpy.types.Object, name: str, names: Container[str]) -> str:
+    """The name of a part as an object or a file of its own: with the object's before it, unless it is there.
+
+    names : those of all parts. Of two parts, "Leg" and "Tree Leg" of a tree, the second is "Tree Tree Leg".
+    """
+    before = f"{obj.name} "
+    return name if name.startswith(before) and name[len(before):] not in names else before + name
 
 
 def keep_name(mesh: bpy.types.Mesh, number: int, name: str, given: bool = False) -> None:

@@ -120,7 +120,7 @@ def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
     meshes = piece_meshes(obj.data, face_numbers, numbers, close, stretch, cut == "PLANAR").meshes
     names = part_names.all_names(obj.data)
     return {name: _stand_in(name, meshes[number], obj) for number in numbers
-            for name in [part_names.with_object(obj, names[number])]}
+            for name in [part_names.with_object(obj, names[number], names.values())]}
 
 
 def _stand_in(name: str, mesh: bpy.types.Mesh, source: bpy.types.Object) -> bpy.types.Object:
@@ -196,7 +196,8 @@ def _colors(obj: bpy.types.Object) -> dict[str, tuple[float, ...]]:
         # Parts that are not shown now are not in the list; pieces of them have the color that these had.
         own = Color(piece.color[:3]).from_scene_linear_to_srgb()[:]
         colors[piece.name] = listed.get(piece[origins.NUMBER], own)
-    return colors | {part_names.with_object(obj, names[number]): color for number, color in listed.items()}
+    return colors | {part_names.with_object(obj, names[number], names.values()): color
+                     for number, color in listed.items()}
 
 
 def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path: Path,

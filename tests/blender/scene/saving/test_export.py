@@ -402,3 +402,29 @@ def test_separated_pieces_have_their_own_names_in_a_file(obj, tmp_path, kind):
     bpy.ops.wm.read_homefile(use_empty=True)
     IMPORT[kind](str(tmp_path / f"Tree.{kind}"))
     assert {piece.name.replace("_", " ") for piece in bpy.data.objects if piece.type == "MESH"} == names
+
+
+@pytest.mark.parametrize("kind", ["stl", "3mf"])
+@pytest.mark.parametrize("hidden", [False, True])
+def test_a_name_that_is_also_another_parts_costs_neither_of_them(obj, tmp_path, kind, hidden):
+    """One was written over the other, and left an object in the scene.
+
+    The user gives the other's name with the object's before it, or the name itself while the other is not shown.
+    """
+    bpy.ops.reeb_parts.decompose(detail=1.0, graph=False)
+    result = obj.data.reeb_parts
+    own = result.parts[-1].name
+    if hidden:
+        result.detail = 0.0
+    result.parts[0].name = own if hidden else f"Tree {own}"
+    result.detail = 1.0
+    names = [part.name for part in result.parts]
+    assert names[0] == (own if hidden else f"Tree {own}")
+    before = snapshot()
+    assert bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, caps=True) == {"FINISHED"}
+    assert snapshot() == before
+    found = ([body.name for body in read_3mf(tmp_path / "Tree.3mf")[0]] if kind == "3mf"
+             else [file.stem for file in tmp_path.iterdir()])
+    assert sorted(found) == sorted(f"Tree {name}" for name in names)
+    bpy.ops.reeb_parts.separate(hide=False)
+    assert {piece.name for piece in bpy.data.objects if "reeb_parts_number" in piece} == set(found)
