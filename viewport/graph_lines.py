@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..core.arrays.components import components
 from ..core.graph.reeb import ReebGraph
 from ..core.result.decomposition import Decomposition
 from ..core.uses.graph_folding import unfolded
@@ -94,13 +95,51 @@ def nearest(points: np.ndarray, segments: np.ndarray, target: np.ndarray) -> tup
         How far along it, 0..1.
     distance : float
     """
+    share, distance = _approach(points, segments, target)
+    if not len(distance) or np.isinf(distance).all():
+        return -1, 0.0, np.inf
+    best = int(distance.argmin())
+    return best, float(share[best]), float(distance[best])
+
+
+def frontmost(points: np.ndarray, segments: np.ndarray, target: np.ndarray, alike: float) -> tuple[int, float, float]:
+    """The segment nearest to a place of a view; where lines cover each other there, of the one in front.
+
+    A symmetric model has its left arcs straight behind the right ones when it is seen from the side.
+
+    Parameters
+    ----------
+    points : (m, 3) float64
+        Two coordinates in the view, and how deep; nan for those that cannot be seen.
+    segments : (s, 2) int64
+    target : (2,) float64
+    alike : float
+        Lines whose distances from the target differ by less cover each other.
+
+    Returns
+    -------
+    segment, share, distance
+        As of ``nearest``, in the view.
+    """
+    share, distance = _approach(points[:, :2], segments, target)
+    if not len(distance) or np.isinf(distance).all():
+        return -1, 0.0, np.inf
+    tied = np.flatnonzero(distance < distance.min() + alike)
+    ends = segments[tied]
+    depth = points[ends[:, 0], 2] * (1.0 - share[tied]) + points[ends[:, 1], 2] * share[tied]
+    # Of its own line the nearest place, not the one that is most in front.
+    _, line = components(len(points), ends[:, 0], ends[:, 1])
+    own = tied[line[ends[:, 0]] == line[ends[depth.argmin(), 0]]]
+    best = int(own[distance[own].argmin()])
+    return best, float(share[best]), float(distance[best])
+
+
+def _approach(points: np.ndarray, segments: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How far along each segment the place nearest to a point is, and how far away; inf where it cannot be seen."""
     start, end = points[segments[:, 0]], points[segments[:, 1]]
     way = end - start
     square = np.maximum((way**2).sum(axis=1), np.finfo(float).tiny)
     share = np.clip(((np.asarray(target) - start) * way).sum(axis=1) / square, 0.0, 1.0)
     distance = np.linalg.norm(start + share[:, None] * way - target, axis=1)
     distance[np.isnan(distance)] = np.inf
-    if not len(distance) or np.isinf(distance).all():
-        return -1, 0.0, np.inf
-    best = int(distance.argmin())
-    return best, float(share[best]), float(distance[best])
+    return share, distance

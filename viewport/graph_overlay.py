@@ -172,10 +172,12 @@ def colored_arcs(mesh: bpy.types.Mesh, places: np.ndarray | None = None) -> tupl
 
 def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: list[bpy.types.Object]) -> None:
     region, view = context.region, context.region_data
+    matrix = np.array(view.view_matrix, np.float64)
+    # Far ones first: also in front of the model, nearer ones are drawn over them.
+    nodes = sorted(nodes, key=lambda node: view.view_matrix[2].xyz.dot(node.matrix_world.translation))
     places = np.array([node.matrix_world.translation for node in nodes])
     shown = part_names.number_colors(source.data)
     colors = shown[np.clip([node["part"] for node in nodes], 0, len(shown) - 1)]
-    matrix = np.array(view.view_matrix, np.float64)
     whole = np.array(view.perspective_matrix, np.float64)
     depth = np.concatenate([places, np.ones((len(places), 1))], axis=1) @ whole[3]
     # A pixel is so large where each node is.

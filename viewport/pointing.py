@@ -20,12 +20,13 @@ from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.outputs.kept_aside import find_attribute
 from ..scene.reading import mesh_arrays, seen_points
-from .graph_lines import GraphLines, nearest
+from .graph_lines import GraphLines, frontmost, nearest
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
 REACH = 10.0  # pixels around an arc, of a screen without scaling
+ALIKE = 2.0  # so much nearer, arcs still cover each other
 ON_SURFACE = 1e-4  # so near to the surface, as a share of its size, a place lies on it
 
 
@@ -171,9 +172,9 @@ class Model:
         _, places = graph_follow.places(obj)
         if places is None or len(places) != len(self.shown_lines.position):
             places = self.shown_lines.position
-        points = on_screen(places, obj.matrix_world, region)
-        segment, share, distance = nearest(points, self.shown_lines.segments, np.array(mouse))
-        if segment < 0 or distance > REACH * context.preferences.system.ui_scale:
+        points, scale = in_view(places, obj.matrix_world, region), context.preferences.system.ui_scale
+        segment, share, distance = frontmost(points, self.shown_lines.segments, np.array(mouse), ALIKE * scale)
+        if segment < 0 or distance > REACH * scale:
             return None
         return _on_line(self.shown_lines, segment, share)
 
@@ -275,11 +276,17 @@ def _on_line(lines: GraphLines, segment: int, share: float) -> Target:
 
 def on_screen(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region) -> np.ndarray:
     """Where points are seen, (m, 2) float64 in pixels of the region; nan behind the viewer."""
+    return in_view(positions, matrix, region)[:, :2]
+
+
+def in_view(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region) -> np.ndarray:
+    """Where points are seen, (m, 3) float64: in pixels of the region, and how deep; nan behind the viewer."""
     # Each region of a quad view has a view of its own.
     whole = np.array(region.data.perspective_matrix, np.float64) @ np.array(matrix, np.float64)
     seen = np.concatenate([positions, np.ones((len(positions), 1))], axis=1) @ whole.T
-    depth = np.where(seen[:, 3:] > 1e-9, seen[:, 3:], np.nan)
-    return (seen[:, :2] / depth + 1.0) * 0.5 * (region.width, region.height)
+    seen = seen[:, :3] / np.where(seen[:, 3:] > 1e-9, seen[:, 3:], np.nan)
+    seen[:, :2] = (seen[:, :2] + 1.0) * 0.5 * (region.width, region.height)
+    return seen
 
 
 def viewport_region(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Region, tuple[float, float]] | None:

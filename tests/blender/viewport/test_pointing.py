@@ -169,6 +169,26 @@ def test_an_arc_is_a_handle(obj, result):
         assert result.parts[result.active].number == numbers(obj.data)[tip_face], index
 
 
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("aside", [0.0, 1.5])
+def test_of_arcs_behind_each_other_the_one_in_front_is_meant(package, turned, aside):
+    """A symmetric model from the side: over the near leg, the pointer named the far one."""
+    frontmost = sys.modules[f"{package}.viewport.graph_lines"].frontmost
+    nearest = sys.modules[f"{package}.viewport.graph_lines"].nearest
+    rng = np.random.default_rng(3)
+    line = np.column_stack([np.arange(0.0, 200.0, 10.0), 5.0 * rng.random(20), 0.4 + 0.1 * rng.random(20)])
+    behind = line + (0.0, aside, 0.3)
+    far_off = line + (0.0, 80.0, -0.3)  # seen beside them, however near to the viewer
+    lines = [far_off, behind, line] if turned else [line, behind, far_off]
+    points, first = np.concatenate(lines), 20 * 2 * turned
+    pairs = np.stack([np.arange(59), np.arange(1, 60)], axis=1)[np.arange(59) % 20 != 19]
+    for place in np.column_stack([200.0 * rng.random(50), 15.0 * rng.random(50) - 5.0]):
+        alone = nearest(line[:, :2], pairs[pairs[:, 1] < 20], place)
+        segment, share, distance = frontmost(points, pairs, place, 2.0)
+        assert pairs[segment].tolist() == [first + alone[0], first + alone[0] + 1]
+        assert (share, distance) == pytest.approx(alone[1:])
+
+
 @pytest.mark.parametrize("change", ["nothing", "subdivided", "mirrored", "exploded", "moved and scaled"])
 def test_a_ray_meets_the_part_that_is_seen_there(package, obj, result, change):
     pointing = sys.modules[f"{package}.viewport.pointing"]
