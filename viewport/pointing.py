@@ -161,8 +161,10 @@ class Model:
         target = self._graph_under(context, obj, region, mouse) if graph else None
         if target is not None or not surface:
             return target
-        start = view3d_utils.region_2d_to_origin_3d(region, region.data, mouse)
-        return self.along(context, obj, start, view3d_utils.region_2d_to_vector_3d(region, region.data, mouse))
+        target = self.along(context, obj, *ray_of(region, mouse))
+        if target is None or is_clipped(region, target.location[None], obj.matrix_world)[0]:
+            return None
+        return target
 
     def _graph_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
                      mouse: tuple[float, float]) -> Target | None:
@@ -287,6 +289,30 @@ def in_view(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region) -> 
     seen = seen[:, :3] / np.where(seen[:, 3:] > 1e-9, seen[:, 3:], np.nan)
     seen[:, :2] = (seen[:, :2] + 1.0) * 0.5 * (region.width, region.height)
     return seen
+
+
+def ray_of(region: bpy.types.Region, mouse: Sequence[float] | np.ndarray) -> tuple[Vector, Vector]:
+    """Where what is seen at a (2,) place of a region begins, in the world, and which way one looks there."""
+    start = view3d_utils.region_2d_to_origin_3d(region, region.data, mouse)
+    ahead = view3d_utils.region_2d_to_vector_3d(region, region.data, mouse)
+    into = 0.0
+    for plane in clip_planes(region.data):
+        height, rise = plane[:3] @ np.array(start) + plane[3], plane[:3] @ np.array(ahead)
+        if height < 0.0 < rise:
+            into = max(into, -height / rise)
+    return start + float(into) * ahead, ahead
+
+
+def is_clipped(region: bpy.types.Region, points: np.ndarray, matrix: Matrix) -> np.ndarray:
+    """Whether points, (k, 3), which a matrix takes to the world, are outside what Alt+B leaves of a view; (k,) bool."""
+    world = points @ np.array(matrix.to_3x3(), np.float64).T + np.array(matrix.translation)
+    planes = clip_planes(region.data)
+    return (world @ planes[:, :3].T + planes[:, 3] < 0.0).any(axis=1)
+
+
+def clip_planes(view: bpy.types.RegionView3D) -> np.ndarray:
+    """The sides of what Alt+B leaves of a view, (4, 4) float64, less than 0 outside; or (0, 4)."""
+    return np.array(view.clip_planes, np.float64).reshape(-1, 4)[:4 if view.use_clip_planes else 0]
 
 
 def viewport_region(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Region, tuple[float, float]] | None:

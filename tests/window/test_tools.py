@@ -129,6 +129,12 @@ def test_picking_in_local_view_maximised_and_in_each_of_four_views(seen):
     assert [name for name, _ in found] == [name for _, name in found]
 
 
+def test_what_alt_b_leaves_out_of_the_view_is_not_picked(seen):
+    left, right, *found = seen["picked where the view is clipped"]
+    assert left != right
+    assert found == [left, left]
+
+
 def test_a_tool_is_carried_into_another_viewport(seen):
     assert {"Part 01", "Part 06"} <= set(seen["seen next door"])
     assert seen["picked next door"] == ["Part 06", ["Part 01", "Part 06"]]

@@ -33,8 +33,8 @@ def steps():
     yield 0.5
     yield from by_submenu()
     yield from hidden()
-    for scene in (picked, picked_again, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted,
-                  switched_off):
+    for scene in (picked, picked_again, cut, painted, escaped, by_graph, disturbed, elsewhere, clipped, next_door,
+                  deleted, switched_off):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
 
@@ -337,6 +337,31 @@ def elsewhere():
     with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
         bpy.ops.screen.region_quadview()
     yield 0.5
+
+
+def clipped():
+    """Parts are picked in the left half of the view; the right half is left out, as by Alt+B."""
+    window = pointer.region("WINDOW")
+    places = pointer.surface_places(spot())
+    places = {spot().data.reeb_parts.parts[i].name: places[part.number]
+              for i, part in enumerate(spot().data.reeb_parts.parts) if part.number in places}
+    left, right = min(places, key=lambda name: places[name][0]), max(places, key=lambda name: places[name][0])
+    middle = (places[left][0] + places[right][0]) // 2 - window.x
+    with bpy.context.temp_override(area=pointer.view_area(), region=window):
+        bpy.ops.view3d.clip_border(xmin=0, xmax=middle, ymin=0, ymax=window.height)
+    in_view(bpy.ops.reeb_parts.show_graph)  # it is not left out
+    yield 0.5
+    yield from pointer.search("Pick Parts")
+    found = []
+    for name in (left, right):
+        yield from pointer.press(*places[name])
+        found.append(chosen()[0])
+    pointer.shot("11_clipped.png")
+    note("picked where the view is clipped", [left, right, *found])
+    yield from pointer.tap("Return")
+    in_view(bpy.ops.view3d.clip_border)
+    in_view(bpy.ops.reeb_parts.show_graph)
+    yield 0.3
 
 
 def next_door():

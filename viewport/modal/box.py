@@ -6,11 +6,9 @@ from __future__ import annotations
 import bpy
 import gpu
 import numpy as np
-from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
-from mathutils import Vector
 
-from ..pointing import Model, on_screen
+from ..pointing import Model, is_clipped, on_screen, ray_of
 
 SAMPLES = 64  # faces of each part that are looked at, whether something hides them
 
@@ -28,6 +26,7 @@ def parts_in_box(context: bpy.types.Context, obj: bpy.types.Object, model: Model
     places = on_screen(model.face_center, obj.matrix_world, region)
     with np.errstate(invalid="ignore"):  # nan: behind the viewer
         inside = ((places >= low) & (places <= high)).all(axis=1)
+    inside &= ~is_clipped(region, model.face_center, obj.matrix_world)
     shading = context.space_data.shading
     if not (shading.type == "WIREFRAME" or (shading.type == "SOLID" and shading.show_xray)):
         inside &= _turned_here(obj, model, region.data)
@@ -61,9 +60,7 @@ def _sampled(numbers: np.ndarray) -> np.ndarray:
 def _is_seen(context: bpy.types.Context, obj: bpy.types.Object, model: Model, region: bpy.types.Region, face: int,
              place: np.ndarray) -> bool:
     """Whether the part of a face is what is seen where the middle of the face is."""
-    start = view3d_utils.region_2d_to_origin_3d(region, region.data, place)
-    ahead = Vector(view3d_utils.region_2d_to_vector_3d(region, region.data, place))
-    hit = model.along(context, obj, start, ahead)
+    hit = model.along(context, obj, *ray_of(region, place))
     return hit is not None and model.number(hit) == model.numbers[face]
 
 
