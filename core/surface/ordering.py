@@ -102,13 +102,8 @@ class Ordering:
 
         polygon : (m,) int64, of each triangle given. Returns the mesh, and the given triangle at each place, (m,).
         """
-        faces, place = inverse(self.vertex)[mesh.faces], inverse(self.polygon)[polygon]
-        if len(self.polygon) == len(place):
-            triangle = stable_order(place)
-        else:  # those of a polygon by their vertices: it may begin at the corner across, and go round either way
-            by_vertices = stable_order(faces.sum(axis=1))
-            triangle = by_vertices[stable_order(place[by_vertices])]
-        faces = faces[triangle]
+        triangle = stable_order(inverse(self.polygon)[polygon])
+        faces = inverse(self.vertex)[mesh.faces[triangle]]
         turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
         return TriMesh(taken(mesh.vertices, self.vertex), np.take_along_axis(faces, turn, axis=1)), triangle
 

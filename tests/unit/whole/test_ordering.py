@@ -51,17 +51,6 @@ def test_the_mirror_image_has_the_mirror_image_of_the_parts(name):
     np.testing.assert_allclose(one.hierarchy.salience, two.hierarchy.salience, rtol=1e-12)
 
 
-def test_polygons_begin_at_either_corner_of_their_diagonal_and_go_round_either_way():
-    vertices, triangles = shapes.pipe(16, 9, bend=0.3)
-    quads = np.column_stack([triangles[::2], triangles[1::2, 2]])
-    vertices = vertices + 0.02 * np.random.default_rng(0).normal(size=vertices.shape)
-    one = decompose(vertices, quads)
-    for places, corners in ((vertices, quads[:, [2, 3, 0, 1]]), (vertices * (-1, 1, 1), quads[:, [0, 3, 2, 1]])):
-        two = decompose(places, corners)
-        np.testing.assert_array_equal(one.candidates, two.candidates)
-        np.testing.assert_array_equal(one.hierarchy.merges, two.hierarchy.merges)
-
-
 def test_box_frames_with_their_faces_in_another_order():
     frame = shapes.torus(4, 4)
     face = np.random.default_rng(2).permutation(len(frame.faces))
