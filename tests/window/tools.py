@@ -361,6 +361,7 @@ def clipped():
     yield from pointer.tap("Return")
     in_view(bpy.ops.view3d.clip_border)
     in_view(bpy.ops.reeb_parts.show_graph)
+    bpy.ops.ed.undo_push(message="The graph is back")  # of a script's commands nothing else does
     yield 0.3
 
 
