@@ -50,9 +50,13 @@ def test_shape_keys_are_read_and_written_as_blender_has_them_in_no_time(package)
     wanted = np.random.default_rng(0).random((len(obj.data.vertices), 3)).astype(np.float32)
 
     def seconds(work):
-        start = time.process_time()
-        found = work()
-        return time.process_time() - start, found
+        """The least of several times, as a millisecond may be anything; and what was found."""
+        taken = []
+        for _ in range(7):
+            start = time.process_time()
+            found = work()
+            taken.append(time.process_time() - start)
+        return min(taken), found
 
     written, _ = seconds(lambda: module.set_key_points(key, wanted))
     one_by_one, found = seconds(lambda: read(key.data, "co", np.float32, 3))
