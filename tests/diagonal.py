@@ -13,7 +13,7 @@ import zlib
 from collections import Counter
 
 #: A table with more cases than this is long.
-LONG_TABLE = 4
+LONG_TABLE = 3
 
 
 def diagonal() -> int | None:
