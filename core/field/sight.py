@@ -117,9 +117,10 @@ def _first_windows(mesh: TriMesh, across: np.ndarray) -> _Windows:
 
 def _open(windows: _Windows, among: np.ndarray | bool = True) -> _Windows:
     """Those of a mask that are wide and have a triangle behind them."""
-    within = row_products(windows.from_, windows.to)
-    wide = within < (WIDE - TIE) * lengths(windows.from_) * lengths(windows.to)
-    return windows.chosen(wide & (windows.side >= 0) & among)
+    near, far = np.sort([lengths(windows.from_), lengths(windows.to)], axis=0)
+    wide = row_products(windows.from_, windows.to) < (WIDE - TIE) * near * far
+    # A limit through a corner at the place of the vertex itself has, but for rounding, no direction.
+    return windows.chosen(wide & (near > ON_A_LINE * far) & (windows.side >= 0) & among)
 
 
 def _behind(mesh: TriMesh, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:

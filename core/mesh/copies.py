@@ -48,6 +48,11 @@ class Copies:
         """Number of polygons that are copies."""
         return len(self.original) - len(self.polygon)
 
+    @property
+    def is_copied(self) -> np.ndarray:
+        """(k,) bool, whether there are copies of each polygon that is none."""
+        return np.bincount(self.original) > 1
+
     def without(self, given: PolygonMesh) -> PolygonMesh:
         """The mesh in which they were found, without copies: k polygons and m vertices."""
         number = place_among(self.polygon, given.n_polygons)

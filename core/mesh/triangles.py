@@ -15,7 +15,7 @@ from ..arrays.vectors import cross, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
 
-ON_A_LINE = 1e-11  # sine of an angle below which the corners of a face lie on a line, but for rounding
+ON_A_LINE = 1e-11  # sine of the least angle below which the corners of a face lie on a line, but for rounding
 # What faces without an area weigh where faces vote for labels by their areas, as a share of the area of the mesh, and
 # what is added to all the others. Lengths vote with this share of its root.
 LEAST_WEIGHT = 1e-12
@@ -169,7 +169,8 @@ class TriMesh:
         some = area > 0
         small = np.flatnonzero(area <= 0.01 * area.mean())  # the others are no lines, and take long
         p, q, r = taken(self.vertices, self.faces[small].T)
-        some[small] &= area[small] > ON_A_LINE * lengths(q - p) * lengths(r - p)
+        _, second, longest = np.sort([lengths(q - p), lengths(r - q), lengths(p - r)], axis=0)
+        some[small] &= area[small] > ON_A_LINE * second * longest
         return np.divide(self.area_normals, area[:, None], out=np.zeros((self.n_faces, 3)), where=some[:, None])
 
     @property

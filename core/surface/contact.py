@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, last_of_each
 from ..arrays.pairs import distinct_pairs
-from ..arrays.ties import first_least
+from ..arrays.ties import TIE, first_least
 from ..arrays.vectors import weighted_sum
 from ..mesh.triangles import TriMesh
 
@@ -28,6 +28,7 @@ MAX_POINTS = 8_000  # of a denser surface so many are taken
 # searched otherwise.
 MAX_PAIRS, MORE_PAIRS = 2_000_000, 1_000
 COUNTED = 400  # points around which it is counted how many others are near
+EQUALLY_NEAR = 8  # points that are looked at of each label, where as many are equally near
 FEW_LABELS = 24  # up to so many it is faster to search the nearest of each than to look at all pairs of points
 FAR_POINTS = 1_500  # to look farther than NEAR, where all pairs of points are compared in the end
 # Of links from which on pieces that hang together are one to those who look farther: between thousands of pieces there
@@ -129,10 +130,10 @@ def _near_points(position: np.ndarray, label: np.ndarray, radius: float) -> np.n
 
 
 def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:
-    """Pairs (k, 2) int64 of a point and the nearest two of another label, one label after the other.
+    """Pairs (k, 2) int64 of a point and the nearest of another label, one label after the other.
 
     Faster than looking at all pairs of points where there are few labels, or thousands of points within the radius of
-    each. Two, because rounding must not choose among points that are equally near.
+    each. Of points that are equally near there are all, up to EQUALLY_NEAR: the search must not choose among them.
     """
     found = [np.empty((0, 2), np.int64)]
     order = np.argsort(label, kind="stable")
@@ -146,11 +147,13 @@ def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: floa
         others = along[begin:end]
         there = position[others]
         others = others[((there >= low) & (there <= high)).all(axis=1) & (label[others] != label[mine[0]])]
-        # Up to and with the radius.
-        distance, nearest = cKDTree(position[mine]).query(
-            position[others], k=[1, 2], distance_upper_bound=np.nextafter(radius, np.inf))
-        other, rank = np.nonzero(np.isfinite(distance))
-        found.append(np.stack([others[other], mine[nearest[other, rank]]], axis=1))
+        search, count = cKDTree(position[mine]), 2
+        while len(others) and count <= EQUALLY_NEAR:
+            distance, nearest = search.query(  # up to and with the radius
+                position[others], k=count, distance_upper_bound=np.nextafter(radius, np.inf))
+            other, rank = np.nonzero(np.isfinite(distance) & (distance <= (1 + TIE) * distance[:, :1]))
+            found.append(np.stack([others[other], mine[nearest[other, rank]]], axis=1))
+            others, count = others[other[rank == count - 1]], 4 * count
     return np.concatenate(found)
 
 

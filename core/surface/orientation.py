@@ -13,7 +13,8 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import even_steps
-from ..arrays.vectors import middles_of_each, row_products
+from ..arrays.ties import TIE
+from ..arrays.vectors import lengths, middles_of_each, row_products, weighted_sum
 from ..mesh.corners import CornerTable
 from ..mesh.triangles import TriMesh
 from ..sentence import Sentence
@@ -53,6 +54,47 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
     note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
                     "neighbors.", n=int(flip.sum()))
     return _turned(mesh, flip), (note,) if flip.any() else ()
+
+
+def of_either_side(mesh: TriMesh, chosen: np.ndarray) -> TriMesh:
+    """Choose a side of faces that were there twice, once for each side, whichever of the two was left.
+
+    Neighbors agree where they can, and look away from the middle of their piece; flat ones, from that of the mesh.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+    chosen : (m,) bool
+        The faces that were there twice.
+
+    Returns
+    -------
+    mesh : TriMesh
+    """
+    two = mesh.edges.n_faces[mesh.edges.pair_edge] == 2  # of more faces at an edge their order would choose two
+    pairs, face = mesh.edges.pairs[two], np.arange(mesh.n_faces)
+    mesh = _turned(mesh, chosen & _look_inwards(mesh, face, mesh.n_faces))  # one by one, where they cannot agree
+    mesh = _turned(mesh, chosen & _of_other_sheet(mesh.n_faces, pairs, mesh.same_way[two]))
+    count, patch = components(mesh.n_faces, *pairs.T)
+    return _turned(mesh, chosen & _look_inwards(mesh, patch, count)[patch])
+
+
+def _look_inwards(mesh: TriMesh, group: np.ndarray, count: int) -> np.ndarray:
+    """Which of some groups of faces, (count,) bool, look to the middle of their piece, or in its plane to the whole's.
+
+    group : (m,) int64, of each face.
+    """
+    n_pieces, piece = mesh.face_components
+    _, of_piece = middles_of_each(piece, mesh.face_centroids, mesh.face_area, n_pieces)
+    whole = weighted_sum(mesh.face_area, mesh.face_centroids) / max(mesh.area, 1e-300)
+    inwards, clearly = [], []
+    for middle in (of_piece[piece], whole):
+        away = mesh.face_centroids - middle
+        volume = np.bincount(group, row_products(mesh.area_normals, away), count)
+        clearly.append(np.abs(volume) > TIE * np.bincount(group, mesh.face_area * lengths(away), count))
+        inwards.append(volume < 0)
+    return np.where(clearly[0], inwards[0], inwards[1] & clearly[1])
 
 
 def _turned(mesh: TriMesh, flip: np.ndarray) -> TriMesh:

@@ -93,6 +93,19 @@ def test_a_triangle_without_height_opens_no_window():
         assert not len(lines_in_sight(TriMesh(moved, faces))[0])
 
 
+def test_corners_at_one_place_but_for_rounding_open_no_window():
+    """Of a side without length rounding chose the direction, and of what lies behind it another part was seen."""
+    grid = stretched(24, 3, 6.0)
+    (a, b, c), more, found = grid.faces[len(grid.faces) // 3], len(grid.vertices), set()
+    others = grid.faces[(grid.faces != (a, b, c)).any(axis=1)]
+    faces = np.concatenate([others, [(more, b, c), (a, more, c), (a, b, more)]])
+    for seed in range(8):
+        beside = grid.vertices[a] + np.random.default_rng(seed).normal(size=3) * 1e-15
+        lines = lines_in_sight(TriMesh(np.concatenate([grid.vertices, [beside]]), faces))
+        found.add(tuple(sorted(zip(*(ends.tolist() for ends in lines[:2]), strict=True))))
+    assert len(found) == 1
+
+
 @pytest.mark.parametrize("scale", [0.0254, 1.37, 25.4])
 def test_lines_along_vertices_do_not_depend_on_the_unit(scale):
     mesh = stretched(24, 3, 6.0)

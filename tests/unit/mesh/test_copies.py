@@ -83,6 +83,22 @@ def test_a_half_model_with_every_face_twice():
     assert (twice[len(half):] == once).all()
 
 
+def test_which_side_comes_first_does_not_count():
+    """Of open clothes that had both sides, it was random in a shuffled file which faces looked inwards."""
+    vertices, faces = shapes.mirrored_figure()
+    half = faces[(vertices[faces][:, :, 0] >= -1e-9).all(axis=1)]
+    both, found = np.concatenate([half, same(half)]), []
+    for _ in range(4):
+        order = RNG.permutation(len(both))
+        result = decompose(vertices, both[order])
+        assert not any("inwards" in note for note in map(str, result.notes))
+        labels = np.empty(len(both), np.int64)
+        labels[order] = result.candidates
+        found.append(np.unique(labels, return_inverse=True)[1])
+    for one in found[1:]:
+        assert len(np.unique(np.stack([found[0], one], axis=1), axis=0)) == found[0].max() + 1 == one.max() + 1
+
+
 def test_copies_have_the_hints_of_what_they_lie_on():
     vertices, faces = TREE
     hints = (vertices[faces].mean(axis=1)[:, 2] > 0.5).astype(int)

@@ -219,3 +219,15 @@ def test_area_scales_and_edges_do_not_care(scale):
     mesh, scaled = TriMesh(vertices, faces), TriMesh(scale * vertices, faces)
     assert scaled.area == pytest.approx(scale**2 * mesh.area)
     np.testing.assert_allclose(scaled.dihedral, mesh.dihedral, atol=1e-9)
+
+
+def test_a_face_without_area_but_for_rounding_has_no_normal():
+    """Two of its corners lie at one place, and their direction is rounding: from there the sine is as large as any."""
+    large = shapes.icosphere(1)
+    for seed in range(20):
+        triangle = np.array([(0.0, 0.0, 0.0), (1e-16, 0.0, 0.0), (0.3, 0.2, 0.1)])
+        triangle[1] = shapes.rotation(np.random.default_rng(seed)) @ triangle[1]
+        for turned in range(3):
+            corners = np.roll(np.arange(3), turned) + len(large.vertices)
+            mesh = TriMesh(np.concatenate([large.vertices, triangle]), np.concatenate([large.faces, [corners]]))
+            assert (mesh.face_normals[-1] == 0).all()

@@ -39,6 +39,18 @@ def test_pieces_of_the_mirror_image_are_linked_where_the_pieces_are():
     np.testing.assert_array_equal(one.faces, other.faces)
 
 
+def test_of_points_that_are_equally_near_the_first_is_linked_in_any_pose():
+    """Over the middle of a square are four corners; the search found two of them, others in the mirror image."""
+    corner = np.stack(np.meshgrid(np.arange(4.0), np.arange(4.0), [0.0]), axis=-1).reshape(-1, 3)
+    above = np.stack(np.meshgrid(np.arange(3.0) + 0.5, np.arange(3.0) + 0.5, [0.25]), axis=-1).reshape(-1, 3)
+    position, label = np.concatenate([corner, above]), np.repeat([0, 1], [16, 9])
+    equal = np.isclose(np.linalg.norm(above[:, None] - corner, axis=2), np.sqrt(0.5 + 0.25**2))
+    for pose in ((1, 1, 1), (-1, 1, 1), (1, -1, 1), (-1, -1, 1)):
+        for axes in ((0, 1, 2), (1, 0, 2), (2, 1, 0)):
+            pairs, _ = near_pairs(points_at((position * pose)[:, axes]), label, 0.8)
+            assert pairs[16:].tolist() == [[16 + at, first] for at, first in enumerate(equal.argmax(axis=1))]
+
+
 def test_boxes_are_linked_where_they_come_near_or_where_all_are_to_hang_together():
     for gap, connected, linked in ((0.01, False, True), (0.1, False, False), (0.1, True, True)):
         mesh = two_boxes(gap)

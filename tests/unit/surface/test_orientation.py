@@ -10,7 +10,7 @@ from open_bodies import OPEN, opened
 
 from core.mesh.corners import CornerTable
 from core.mesh.triangles import TriMesh
-from core.surface.orientation import against_neighbors, looks_inwards, of_solids, turn_outwards
+from core.surface.orientation import against_neighbors, looks_inwards, of_either_side, of_solids, turn_outwards
 
 
 @pytest.mark.parametrize("name", OPEN)
@@ -51,6 +51,21 @@ def test_what_is_folded_flat_keeps_its_side(scale):
     for given in (faces, faces[:, ::-1]):
         mesh = TriMesh(np.concatenate([vertices, vertices]), given)
         assert turn_outwards(mesh) == (mesh, ())
+
+
+def test_a_side_is_chosen_whichever_is_left():
+    """Of a bowl that which looks outwards, of a card beside it that which looks away from the bowl; a lid stays."""
+    vertices, faces = shapes.icosphere(2)
+    bowl = shapes.Shape(vertices, faces[(vertices[faces][:, :, 2] < 0.3).all(axis=1)])
+    card = shapes.moved(shapes.flat_grid(4, 4), (3.0, 0.0, 0.7))
+    lid = shapes.inside_out(shapes.moved(shapes.flat_grid(3, 3), (-1.0, -1.0, -2.0)))
+    mesh = TriMesh(*shapes.together(bowl, card, lid))
+    chosen = np.arange(mesh.n_faces) < len(bowl.faces) + len(card.faces)
+    rng = np.random.default_rng(0)
+    for _ in range(4):
+        left = np.where((chosen & (rng.random(mesh.n_faces) < 0.5))[:, None], mesh.faces[:, ::-1], mesh.faces)
+        found = of_either_side(TriMesh(mesh.vertices, left), chosen)
+        np.testing.assert_allclose(found.area_normals, mesh.area_normals, atol=1e-15)
 
 
 def test_edges_are_contrary_where_one_of_two_faces_is_turned():
