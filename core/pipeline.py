@@ -30,7 +30,7 @@ from .result.decomposition import Decomposition
 from .result.half import of_half
 from .surface.coarsening import Pyramid
 from .surface.ordering import sorted_by_place
-from .surface.orientation import of_either_side
+from .surface.orientation import without_copies
 from .surface.preparation import Component, WorkingMesh, bodies, repair
 from .symmetry.halves import completed, plane_of
 from .symmetry.mirrors import Mirror, find_mirrors
@@ -117,8 +117,7 @@ def decompose(
         hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)
         if copies := find_copies(given):
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
-            given, hint = copies.without(given), hint[copies.polygon] if len(hint) else hint
-            given = replace(given, triangles=of_either_side(given.triangles, copies.is_copied[given.polygon]))
+            given, hint = without_copies(given, copies), hint[copies.polygon] if len(hint) else hint
     if plane is None:
         result = _decomposed(given, hint, parameters, watch, model, join_model)
     else:

@@ -9,13 +9,17 @@ that their artist gave them.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import even_steps
 from ..arrays.ties import TIE
 from ..arrays.vectors import lengths, middles_of_each, row_products, weighted_sum
+from ..mesh.copies import Copies
 from ..mesh.corners import CornerTable
+from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import TriMesh
 from ..sentence import Sentence
 from .winding import MOST_OF_SHEETS, winding_numbers
@@ -54,6 +58,12 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
     note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
                     "neighbors.", n=int(flip.sum()))
     return _turned(mesh, flip), (note,) if flip.any() else ()
+
+
+def without_copies(given: PolygonMesh, copies: Copies) -> PolygonMesh:
+    """The mesh in which copies of faces were found, without them; sides are chosen as ``of_either_side`` does."""
+    given = copies.without(given)
+    return replace(given, triangles=of_either_side(given.triangles, copies.is_copied[given.polygon]))
 
 
 def of_either_side(mesh: TriMesh, chosen: np.ndarray) -> TriMesh:

@@ -28,6 +28,7 @@ from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
 from ..surface.coarsening import Pyramid
 from ..surface.ordering import sorted_by_place
+from ..surface.orientation import without_copies
 from ..surface.preparation import Component, repair
 
 if TYPE_CHECKING:
@@ -103,7 +104,7 @@ def sample_surface(
     """
     given = PolygonMesh.of(vertices, faces, polygon)
     if copies := find_copies(given):
-        given = copies.without(given)
+        given = without_copies(given, copies)
     given, ordering = sorted_by_place(given)
     working = repair(given)
     body = Component.of(working, np.arange(working.mesh.n_faces))

@@ -24,6 +24,7 @@ from ..mesh.triangles import TriMesh
 from ..result.parts import Parts
 from ..sentence import Sentence
 from ..surface.ordering import sorted_by_place
+from ..surface.orientation import without_copies
 from ..surface.preparation import repair
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ class _Surface:
         # By hand a face can be in one part and its copy in another.
         if copies and (label == label[copies.polygon][copies.original]).all():
             before = _areas(given, label, parts.count)
-            given, label, field = copies.without(given), label[copies.polygon], field[copies.vertex]
+            given, label, field = without_copies(given, copies), label[copies.polygon], field[copies.vertex]
             area = area * _areas(given, label, parts.count) / np.maximum(before, 1e-300)
         given, ordering = sorted_by_place(given)
         working = repair(given)
