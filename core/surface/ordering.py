@@ -9,7 +9,7 @@ bringing the result back to the caller's order. What lies near each other then a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -251,7 +251,7 @@ def rank_by_place(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
         Place of each in the order, which depends on order, pose and scale as ``Ordering`` does.
     """
     position = points - weighted_sum(weight, points) / weight.sum()
-    place = inner_products(position, _own_axes(position, weight, position, lambda: weight))
+    place = inner_products(position, _own_axes(position, weight, position, [lambda: weight]))
     return inverse(_order(place / max(np.abs(place).max(), 1e-300), lambda: np.zeros_like(place)))
 
 
@@ -270,37 +270,41 @@ def _in_own_frame(
     corner = np.zeros((mesh.n_vertices, 3))
     corner[used] = mesh.vertices[used] - middle
 
-    def meeting() -> np.ndarray:
-        """Squared number of polygons at each vertex in use, or of their edges: how they are divided must not count."""
-        ends = mesh.faces
-        if len(polygon) > polygon.max(initial=-1) + 1:
-            within = mesh.edges.pair_edge[polygon[mesh.edges.pairs[:, 0]] == polygon[mesh.edges.pairs[:, 1]]]
-            ends = np.delete(mesh.edges.vertices, within, axis=0)
+    def meeting(ends: np.ndarray) -> np.ndarray:
+        """Squared number of faces or edges, of which these are the vertices, at each vertex in use."""
         number = np.bincount(ends.ravel(), minlength=mesh.n_vertices)[used]
         return number * number
 
-    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used], meeting)
+    def outlines() -> np.ndarray:
+        """Vertices, (e, 2), of the edges that are none within a polygon."""
+        within = mesh.edges.pair_edge[polygon[mesh.edges.pairs[:, 0]] == polygon[mesh.edges.pairs[:, 1]]]
+        return np.delete(mesh.edges.vertices, within, axis=0)
+
+    counts = [lambda: meeting(mesh.faces)]
+    if len(polygon) > polygon.max(initial=-1) + 1:  # how polygons are divided counts only where they do not tell
+        counts.insert(0, lambda: meeting(outlines()))
+    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used], counts)
     corner = inner_products(corner, axes)
     return corner / max(np.abs(corner).max(), 1e-300), axes
 
 
 def _own_axes(
-    position: np.ndarray, weight: np.ndarray, points: np.ndarray, point_weight: Callable[[], np.ndarray]
+    position: np.ndarray, weight: np.ndarray, points: np.ndarray, point_weights: Sequence[Callable[[], np.ndarray]]
 ) -> np.ndarray:
     """Axes of a surface, (3, 3), a row each: the principal axes of positions, (m, 3), from their middle.
 
     Each points to where the farther positions are, or away from there; where both sides of the shape are alike, to
-    where the points, (k, 3), have more of another weight, (k,), as the faces of symmetric shapes often differ; where
-    these are alike, too, the first point that is clearly on one side decides.
+    where the points, (k, 3), have more of the first of other weights, (k,), that tells: the faces of symmetric shapes
+    often differ. Where all these are alike, too, the first point that is clearly on one side decides.
     """
     axes = principal_axes(second_moments(position, weight), points)
     for axis in axes:
         lean = _lean(inner_products(position, axis), weight)
         if abs(lean) < TIE:
             height = inner_products(points, axis)
-            lean = _lean(height, point_weight())
-            if abs(lean) < TIE:
-                lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
+            leans = (_lean(height, point_weight()) for point_weight in point_weights)
+            first = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
+            lean = next((lean for lean in leans if abs(lean) >= TIE), first)
         axis *= -1.0 if lean < 0 else 1.0
     axes[[0, 2]] *= -1.0  # which end comes first is a convention
     return axes

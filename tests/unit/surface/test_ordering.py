@@ -43,6 +43,20 @@ def test_of_symmetric_shapes_the_order_of_the_faces_changes_nothing(shape):
     np.testing.assert_array_equal(one.triangles.vertices, two.triangles.vertices)
 
 
+@pytest.mark.parametrize("seed", [7, 9, 12])
+def test_of_symmetric_quads_their_diagonals_decide(seed):
+    """But for how its quads are divided a box is its own image: the order of the vertices chose its frame."""
+    rng = np.random.default_rng(seed)
+    vertices, quads = shapes.blocks(np.ones((3, 2, 1), bool))
+    quads, found = np.array([np.roll(quad, rng.integers(0, 2)) for quad in quads]), set()
+    for _ in range(6):
+        order = rng.permutation(len(vertices))
+        given, _ = sorted_by_place(PolygonMesh.of(
+            (vertices * (1.0, 1.1, 1.7))[order], np.argsort(order)[rng.permutation(quads)]))
+        found.add((given.triangles.vertices.tobytes(), given.triangles.faces.tobytes()))
+    assert len(found) == 1
+
+
 def test_polygons_stay_whole():
     _, ordering = sorted_mesh(LOPSIDED["grid"])
     faces = LOPSIDED["grid"].faces
