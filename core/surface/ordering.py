@@ -148,13 +148,15 @@ def _places(mesh: TriMesh) -> np.ndarray:
 
 
 def _at_places(mesh: TriMesh, place: np.ndarray) -> TriMesh:
-    """The mesh with one vertex at each place; place : (n,) int64."""
+    """The mesh with one vertex at each place, midway between those that differ by rounding; place : (n,) int64."""
     count = int(place.max(initial=-1)) + 1
     if count == mesh.n_vertices:
         return mesh
-    vertices = np.empty((count, 3))
-    vertices[place] = mesh.vertices
-    return TriMesh(vertices, place[mesh.faces])
+    low, high = np.full((3, count), np.inf), np.full((3, count), -np.inf)
+    for coordinate, least, most in zip(mesh.vertices.T, low, high, strict=True):
+        np.minimum.at(least, place, coordinate)
+        np.maximum.at(most, place, coordinate)
+    return TriMesh(((low + high) / 2).T, place[mesh.faces])
 
 
 def _with_split_vertices(ordering: Ordering, place: np.ndarray, given: PolygonMesh) -> Ordering:
