@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays.components import components, roots
+from ..arrays.components import roots
 from ..arrays.indexing import last_of_each, renumbered
 from ..arrays.nearest_seeds import nearest_seeds
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.ties import first_largest, rounded, whole_steps
 from ..arrays.vectors import row_products, weighted_sum
-from ..mesh.labels import label_boundaries, longest_neighbor
+from ..mesh.labels import FaceGraph, label_boundaries, longest_neighbor
 from ..mesh.triangles import TriMesh
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
         farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
         seeds = np.concatenate([seeds, np.setdiff1d(widest, seeds)])
-    return absorb_small(mesh, connected_cells(mesh, cell), SMALLEST)
+    return absorb_small(mesh, FaceGraph.of(mesh).regions(cell)[1], SMALLEST)
 
 
 def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.ndarray:
@@ -100,17 +100,6 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.nda
         if (goal == np.arange(len(area))).all():
             return label
         label = renumbered(roots(goal)[label])[1]
-
-
-def connected_cells(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:
-    """Divide cells of faces into their connected components.
-
-    mesh : TriMesh, m faces. cell : (m,) int64. Returns (m,) int64, components numbered in the order of their lowest
-    faces.
-    """
-    a, b = mesh.edges.pairs.T
-    same = cell[a] == cell[b]
-    return components(mesh.n_faces, a[same], b[same])[1]
 
 
 def _crease_graph(mesh: TriMesh) -> csr_array:

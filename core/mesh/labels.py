@@ -180,7 +180,10 @@ class FaceGraph:
         return vote_weights(self.area)
 
     def regions(self, label: np.ndarray) -> tuple[int, np.ndarray]:
-        """How many connected regions of one label there are, and which each face is in, (n_faces,) int64."""
+        """How many connected regions of one label there are, and which each face is in, (n_faces,) int64.
+
+        Regions are numbered in the order of their lowest faces.
+        """
         first, second = self.pairs.T
         same = np.flatnonzero(label[first] == label[second])
         return components(self.n_faces, first[same], second[same])

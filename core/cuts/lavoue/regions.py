@@ -12,7 +12,7 @@ from ...arrays.indexing import sums_by
 from ...arrays.nearest_seeds import nearest_seeds
 from ...arrays.pairs import pair_keys, symmetric_matrix
 from ...arrays.ties import rounded, whole_steps
-from ...mesh.labels import label_boundaries
+from ...mesh.labels import FaceGraph, label_boundaries
 from ...mesh.triangles import TriMesh
 
 # Share of the area below which a region is a sliver; what parts it from its neighbors counts by the weight only.
@@ -47,9 +47,7 @@ def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
     if seed.any():
         ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
         source = nearest_seeds(ways, np.flatnonzero(seed))[1]
-    region = np.where(source >= 0, core[source], mesh.n_faces)
-    inside = region[first] == region[second]
-    return components(mesh.n_faces, first[inside], second[inside])[1]
+    return FaceGraph.of(mesh).regions(np.where(source >= 0, core[source], mesh.n_faces))[1]
 
 
 class CurvatureGraph:

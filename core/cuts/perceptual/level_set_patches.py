@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from ...mesh.labels import majority
-from ..patches import SMALLEST, absorb_small, connected_cells
+from ...mesh.labels import FaceGraph, majority
+from ..patches import SMALLEST, absorb_small
 
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
 
@@ -27,4 +27,4 @@ def level_set_patches(sets: LevelSets) -> np.ndarray:
     """
     coarse = cut_at_levels(sets.mesh, sets.values, uniform_levels(SLABS))
     piece = majority(coarse.element_face, coarse.element_piece, coarse.element_weight, sets.mesh.n_faces)
-    return absorb_small(sets.mesh, connected_cells(sets.mesh, piece), SMALLEST)
+    return absorb_small(sets.mesh, FaceGraph.of(sets.mesh).regions(piece)[1], SMALLEST)
