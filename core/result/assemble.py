@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays.indexing import is_last_of_each
+from ..arrays.pairs import both_ways
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
@@ -199,7 +200,7 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
     pairs = given.polygon[given.triangles.edges.pairs]
     by_corner = np.stack([np.repeat(given.polygon[~kept_triangle], 3),
                           at_vertex[given.triangles.faces[~kept_triangle]].ravel()], axis=1)
-    pairs = np.concatenate([pairs, pairs[:, ::-1], by_corner[by_corner[:, 1] >= 0]])
+    pairs = np.concatenate([both_ways(pairs), by_corner[by_corner[:, 1] >= 0]])
     pairs = pairs[~kept[pairs[:, 0]] & kept[pairs[:, 1]]]
     lost, first = np.unique(pairs[:, 0], return_index=True)
     known = kept.copy()

@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, last_of_each
-from ..arrays.pairs import distinct_pairs
+from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE, first_least
 from ..arrays.vectors import weighted_sum
 from ..mesh.triangles import TriMesh
@@ -126,7 +126,7 @@ def _near_points(position: np.ndarray, label: np.ndarray, radius: float) -> np.n
         return _nearest_of_each_label(position, label, radius)
     found = tree.query_pairs(radius, output_type="ndarray")
     found = found[label[found[:, 0]] != label[found[:, 1]]]
-    return np.concatenate([found, found[:, ::-1]]).astype(np.int64)
+    return both_ways(found).astype(np.int64)
 
 
 def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.indexing import place_among
+from ...arrays.pairs import both_ways
 from ...arrays.vectors import unit
 from .band import Band
 from .turning import turning
@@ -53,7 +54,7 @@ class Pins:
         sure &= (pair == other).all(axis=0)
         pair[:, ~sure] = -1
         member = sure.copy()
-        a, b = np.concatenate([band.table.edges[sharp], band.table.edges[sharp][:, ::-1]]).T
+        a, b = both_ways(band.table.edges[sharp]).T
         for _ in range(GAP):
             reached = member[a] & ~member[b]
             pair[:, b[reached]] = pair[:, a[reached]]
@@ -81,7 +82,7 @@ def _sharp(band: Band) -> np.ndarray:
 def are_between(band: Band, pins: Pins, top: np.ndarray) -> np.ndarray:
     """Whether all neighbors of each pinned vertex are in one of its two parts, (k,) bool."""
     place = place_among(pins.vertex, len(band.vertices))
-    start, end = np.concatenate([band.table.edges, band.table.edges[:, ::-1]]).T
+    start, end = both_ways(band.table.edges).T
     start, end = start[place[start] >= 0], end[place[start] >= 0]
     strange = (pins.pair[place[start]] != top[end][:, None]).all(axis=1)
     fine = np.ones(len(pins.vertex), bool)

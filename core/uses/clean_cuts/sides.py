@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.pairs import both_ways
 from ...steps import Steps, stretched
 from .band import Band
 from .pins import Pins, are_between
@@ -70,7 +71,7 @@ def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: n
     n = len(band.vertices)
     a, b = band.table.edges.T
     apart = top[a] != top[b]
-    start, end = np.concatenate([band.table.edges[apart], band.table.edges[apart][:, ::-1]]).T
+    start, end = both_ways(band.table.edges[apart]).T
     least, most = np.full(n, len(band.names)), np.full(n, -1)
     np.minimum.at(least, start, top[end])
     np.maximum.at(most, start, top[end])
