@@ -352,7 +352,6 @@ def _gains(a: np.ndarray, b: np.ndarray, length: np.ndarray, label: np.ndarray) 
     inside = np.bincount(a[~edge], length[~edge], len(label))
     best = majority(owner, other, weight, len(label))
     toward = other == best[owner]
-    # NumPy counts in whole numbers where no face is at a boundary.
-    gain = np.bincount(owner[toward], weight[toward], len(label)).astype(float) - inside
+    gain = sums_by(owner[toward], weight[toward], len(label)) - inside
     gain[best < 0] = 0.0
     return gain, best

@@ -16,6 +16,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from ..arrays.indexing import sums_by, underflow_is_zero
+from ..arrays.pairs import both_ways
+from ..arrays.vectors import middles_of_each
 from ..errors import MeshError
 from ..graph.critical import MAXIMUM
 from ..mesh.copies import find_copies
@@ -189,14 +191,13 @@ def part_descriptors(
     """
     surface = _Surface.of(vertices, faces, polygon, parts)
     size = surface.size
-    touching, others = _neighborhood(surface, parts)
     columns = {
         "log_share": np.log(size) * 2,
         "has_twin": ((parts.twin >= 0) & (parts.twin != np.arange(parts.count))).astype(float),
         "n_leaves": np.log1p(_in_parts(parts, parts.decomposition.graph.node_kind == MAXIMUM)),
         "n_arcs": np.log1p(np.bincount(parts.arc_part, minlength=parts.count)),
         "hops": np.log1p(_hops(parts, surface.area)),
-        **touching, **others, **_shape(surface),
+        **_neighborhood(surface, parts), **_shape(surface),
     }
     field = surface.quantiles(surface.mean_field(), QUANTILES)
     depth = surface.quantiles(surface.depth(), (0.5, 0.9, 1.0)) / size[:, None]
@@ -222,20 +223,16 @@ def _hops(parts: Parts, area: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(hops), hops, parts.count)
 
 
-def _neighborhood(surface: _Surface, parts: Parts) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+def _neighborhood(surface: _Surface, parts: Parts) -> dict[str, np.ndarray]:
     """How a part touches others, and what these are like."""
-    a, b = parts.cuts.T
-    owner, other = np.concatenate([a, b]), np.concatenate([b, a])
-    unit, size, share = surface.unit, surface.size, surface.share
-    weight = np.maximum(np.tile(parts.cut_length, 2), 1e-9 * unit)
-    total = np.maximum(np.bincount(owner, weight, parts.count), 1e-300)
+    owner, other = both_ways(parts.cuts).T
+    weight = np.maximum(np.tile(parts.cut_length, 2), 1e-9 * surface.unit)
     field = surface.quantiles(surface.mean_field(), (0.5,))[:, 0]
-    return (
-        {"cut_length": np.bincount(owner, weight, parts.count) / unit / size,
-         "n_neighbors": np.log1p(np.bincount(owner, minlength=parts.count))},
-        {"neighbor_share": np.bincount(owner, weight * share[other], parts.count) / total,
-         "neighbor_field": np.bincount(owner, weight * field[other], parts.count) / total},
-    )
+    around = np.stack([surface.share, field], axis=1)[other]
+    length, mean = middles_of_each(owner, around, weight, parts.count)
+    return {"cut_length": length / surface.unit / surface.size,
+            "n_neighbors": np.log1p(np.bincount(owner, minlength=parts.count)),
+            "neighbor_share": mean[:, 0], "neighbor_field": mean[:, 1]}
 
 
 def _radii(surface: _Surface, parts: Parts) -> np.ndarray:
@@ -253,11 +250,10 @@ def _shape(surface: _Surface) -> dict[str, np.ndarray]:
     """Extent of each part along its principal axes, and distances between points of it, in units of its size."""
     mesh, label, count, size = surface.mesh, surface.label, surface.count, surface.size
     area = mesh.face_area
-    total = np.maximum(np.bincount(label, area, count), 1e-300)
-    middle = sums_by(label, area[:, None] * mesh.face_centroids, count) / total[:, None]
+    total, middle = middles_of_each(label, mesh.face_centroids, area, count)
     offset = mesh.face_centroids - middle[label]
     moment = sums_by(label, (area[:, None, None] * offset[:, :, None] * offset[:, None, :]).reshape(-1, 9), count)
-    spread = np.linalg.eigvalsh((moment / total[:, None]).reshape(-1, 3, 3))[:, ::-1]
+    spread = np.linalg.eigvalsh((moment / np.maximum(total, 1e-300)[:, None]).reshape(-1, 3, 3))[:, ::-1]
     spread = np.log(np.maximum(np.sqrt(np.maximum(spread, 0.0)) / size[:, None], LEAST))
     apart = _apart(surface) / size[:, None]
     return {"log_length": spread[:, 0], "log_width": spread[:, 1], "log_height": spread[:, 2],

@@ -8,6 +8,7 @@ from collections import Counter
 
 import numpy as np
 
+from ..arrays.indexing import sums_by
 from ..graph.critical import SADDLE
 from ..graph.reeb import ReebGraph
 
@@ -15,10 +16,9 @@ from ..graph.reeb import ReebGraph
 def arc_lengths(graph: ReebGraph) -> np.ndarray:
     """Length of each arc from node to node through its center points, (q,) float64, in units of the vertices."""
     first, last = graph.node_position[graph.arcs].transpose(1, 0, 2)
-    length = np.zeros(graph.n_arcs)
     step = np.linalg.norm(np.diff(graph.point_position, axis=0), axis=1)
     same = graph.point_arc[1:] == graph.point_arc[:-1]
-    np.add.at(length, graph.point_arc[1:][same], step[same])
+    length = sums_by(graph.point_arc[1:][same], step[same], graph.n_arcs)
     start, end = graph.arc_points[:-1], graph.arc_points[1:]
     full = np.flatnonzero(end > start)
     length[full] += np.linalg.norm(graph.point_position[start[full]] - first[full], axis=1)

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.components import components
-from ...arrays.indexing import place_among, renumbered, sums_by
+from ...arrays.indexing import place_among, renumbered
+from ...arrays.vectors import middles_of_each
 from ...mesh.corners import CornerTable
 from ...mesh.labels import FaceGraph, connect, straighten
 from ...parameters import Parameters
@@ -65,10 +66,7 @@ class Contours:
         """
         if not self.count:
             return -1
-        length = self.length
-        middle = self.segments.mean(axis=1)
-        total = np.bincount(self.label, length, self.count)
-        centroid = sums_by(self.label, length[:, None] * middle, self.count) / total[:, None]
+        _, centroid = middles_of_each(self.label, self.segments.mean(axis=1), self.length, self.count)
         return int(np.linalg.norm(centroid - point, axis=1).argmin())
 
     def through(self, face: int) -> int:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered, run_starts, stable_order, sums_by
-from ...arrays.vectors import cross, unit
+from ...arrays.vectors import cross, middles_of_each, second_moments_of_each, unit
 from ...mesh.corners import next_of_owner
 
 # Faces of a cap that turn by more than this lie apart in the map, as where three parts meet.
@@ -43,12 +43,12 @@ def cap_map(points: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarr
     island = _islands(corner_vertex, corner_vertex[ahead], face, area)[face]
     count = int(island.max(initial=-1)) + 1
     normal = unit(sums_by(island[first], area, count))
-    center = sums_by(island, here, count) / np.bincount(island, minlength=count)[:, None]
+    every = np.ones(len(here))
+    _, center = middles_of_each(island, here, every, count)
     offset = here - center[island]
     # The longer side of each along the rows.
     across = offset - (offset * normal[island]).sum(axis=1)[:, None] * normal[island]
-    moments = sums_by(island, (across[:, :, None] * across[:, None]).reshape(-1, 9), count).reshape(-1, 3, 3)
-    u = np.linalg.eigh(moments)[1][:, :, 2]
+    u = np.linalg.eigh(second_moments_of_each(island, across, every, count))[1][:, :, 2]
     u = unit(u - (u * normal).sum(axis=1)[:, None] * normal)
     v = cross(normal, u)
     flat = density * np.stack([(offset * axis[island]).sum(axis=1) for axis in (u, v)], axis=1)

@@ -9,6 +9,8 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import place_among, sums_by
+from ...arrays.pairs import both_ways
+from ...arrays.vectors import middles_of_each, second_moments_of_each
 from .band import Band
 
 # A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius; if
@@ -60,19 +62,19 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
     count = curve.max() + 1
     a, b = band.table.edges[crossed].T
     point = band.table.vertices[a] + share[crossed, None] * (band.table.vertices[b] - band.table.vertices[a])
-    center = sums_by(curve, point, count) / np.bincount(curve, minlength=count)[:, None]
+    n_points, center = middles_of_each(curve, point, np.ones(len(point)), count)
     offset = point - center[curve]
-    moments = sums_by(curve, (offset[:, :, None] * offset[:, None]).reshape(-1, 9), count).reshape(-1, 3, 3)
-    size, axes = np.linalg.eigh(moments / np.bincount(curve)[:, None, None])
+    moments = second_moments_of_each(curve, offset, np.ones(len(point)), count)
+    size, axes = np.linalg.eigh(moments / n_points[:, None, None])
     normal = axes[:, :, 0]
-    length = sums_by(curve, band.table.edge_length(crossed), count) / np.bincount(curve)
+    length = sums_by(curve, band.table.edge_length(crossed), count) / n_points
     away = np.zeros(count)
     np.maximum.at(away, curve, np.abs((offset * normal[curve]).sum(axis=1)))
     pair = np.sort(np.stack([top[a], top[b]], axis=1), axis=1)
     low, high = np.full((count, 2), len(band.names)), np.full((count, 2), -1)
     np.minimum.at(low, curve, pair)
     np.maximum.at(high, curve, pair)
-    fits = (low == high).all(axis=1) & (size[:, 1] > 0.01 * size[:, 2]) & (np.bincount(curve) >= 6)
+    fits = (low == high).all(axis=1) & (size[:, 1] > 0.01 * size[:, 2]) & (n_points >= 6)
     fits &= away <= PLANE_EDGES * length + (BENT_RADIUS if bent else PLANE_RADIUS) * np.sqrt(size.sum(axis=1).clip(0))
     rings = np.where(fits, np.ceil(away / np.maximum(length, 1e-300)).clip(max=steps) + 2, 0).astype(np.int64)
     number, ring = _owners(band, crossed, curve, rings)
@@ -101,7 +103,7 @@ def _owners(band: Band, crossed: np.ndarray, curve: np.ndarray, rings: np.ndarra
     """
     number, ring = np.full(len(band.vertices), -1), np.zeros(len(band.vertices), np.int64)
     number[band.table.edges[crossed]] = curve[:, None]
-    start, end = np.concatenate([band.table.edges, band.table.edges[:, ::-1]]).T
+    start, end = both_ways(band.table.edges).T
     for step in range(1, int(rings.max(initial=0)) + 1):
         here = (number[start] >= 0) & (number[end] < 0)
         here[here] = (ring[start[here]] == step - 1) & (rings[number[start[here]]] >= step)

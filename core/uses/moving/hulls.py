@@ -13,9 +13,9 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ...arrays.components import components
-from ...arrays.indexing import renumbered, rounded_order, stable_order, sums_by
+from ...arrays.indexing import renumbered, rounded_order, stable_order
 from ...arrays.pairs import distinct_pairs
-from ...arrays.vectors import cross, inner_products, lengths, second_moments
+from ...arrays.vectors import cross, inner_products, lengths, middles_of_each, second_moments
 from ...mesh.corners import CornerTable
 from ...surface.ordering import principal_axes
 
@@ -140,8 +140,7 @@ def _closed(table: CornerTable, labels: np.ndarray) -> tuple[_Surface, np.ndarra
     count, loop = components(int(max(first.max(), second.max())) + 1, first, second)
     loop = loop[first]
     length = lengths(table.vertices[end] - table.vertices[start]) + np.finfo(float).tiny
-    middle = sums_by(loop, 0.5 * length[:, None] * (table.vertices[start] + table.vertices[end]), count)
-    middle /= np.bincount(loop, length, count)[:, None]
+    _, middle = middles_of_each(loop, 0.5 * (table.vertices[start] + table.vertices[end]), length, count)
     fans = np.stack([start, end, len(table.vertices) + loop], axis=1)
     surface = _Surface(np.concatenate([table.vertices, middle]), np.concatenate([triangles, fans]))
     return surface, np.append(labels[face], rim_part)
