@@ -157,6 +157,18 @@ def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
     return np.stack([sums_by(index, column, count) for column in values.T], axis=1)
 
 
+def bounds_of_each(index: np.ndarray, values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Find the least and the largest value of each group.
+
+    index : (n,) int64, group of each value, 0..count-1. values : (n,) or (n, k) float64. Returns (count,) or (count, k)
+    float64 twice; inf and -inf for a group without values.
+    """
+    low, high = np.full((count, *values.shape[1:]), np.inf), np.full((count, *values.shape[1:]), -np.inf)
+    np.minimum.at(low, index, values)
+    np.maximum.at(high, index, values)
+    return low, high
+
+
 def taken(values: np.ndarray, index: np.ndarray) -> np.ndarray:
     """Rows of an array, (n, k), as ``values[index]`` would copy them, three to five times as fast.
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import frozen, hashed_rows, inverse, renumbered, stable_order, sums_by, taken
+from ..arrays.indexing import bounds_of_each, frozen, hashed_rows, inverse, renumbered, stable_order, sums_by, taken
 from ..arrays.ties import DENSE, TIE, ranks
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
@@ -193,9 +193,7 @@ def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: n
     """
     if not len(chosen):
         return np.zeros(0, bool)
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, piece, points)
-    np.maximum.at(high, piece, points)
+    low, high = bounds_of_each(piece, points, count)
     near = NEAR * np.linalg.norm(np.ptp(points, axis=0))
     return np.array([((low <= high[one] + near) & (high >= low[one] - near)).all(axis=1).sum() > 1 for one in chosen],
                     bool)

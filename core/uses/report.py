@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import scipy
 
+from ..arrays.indexing import bounds_of_each
 from ..errors import ParameterError
 from ..graph.critical import KINDS
 from ..mesh.arguments import numbers as as_numbers
@@ -175,11 +176,7 @@ def bounding_boxes(labels: np.ndarray, points: np.ndarray, count: int) -> np.nda
     boxes : (count, 2, 3) float64
         Lowest and highest corner of each part, in the unit of ``points``.
     """
-    boxes = np.empty((count, 2, 3))
-    boxes[:, 0], boxes[:, 1] = np.inf, -np.inf
-    np.minimum.at(boxes[:, 0], labels, points)
-    np.maximum.at(boxes[:, 1], labels, points)
-    return boxes
+    return np.stack(bounds_of_each(labels, points, count), axis=1)
 
 
 def _parts(

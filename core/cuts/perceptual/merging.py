@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...arrays.indexing import sums_by
+from ...arrays.indexing import bounds_of_each, sums_by
 from ...arrays.pairs import distinct_pairs
 from ...mesh.triangles import TriMesh
 from .features import RegionMeasures, cut_features_, region_shape
@@ -60,11 +60,8 @@ class RegionAdjacencyGraph:
         self.border = sums_by(border, measures.pair[apart], len(self.ends))
         first, second = self.ends.T
         around = sums_by(first, self.border, n) + sums_by(second, self.border, n)
-        level_min, level_max = np.full(n, np.inf), np.full(n, -np.inf)
-        np.minimum.at(level_min, label, measures.level)
-        np.maximum.at(level_max, label, measures.level)
-        agd_max = np.full(n, -np.inf)
-        np.maximum.at(agd_max, label, measures.agd)
+        level_min, level_max = bounds_of_each(label, measures.level, n)
+        _, agd_max = bounds_of_each(label, measures.agd, n)
         sums = sums_by(label, measures.face, n)
         perimeter = around[:, BORDER.length].copy()
         degree = np.bincount(self.ends.ravel(), minlength=n).astype(float)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays.components import components
-from ...arrays.indexing import renumbered, run_starts, stable_order, sums_by
+from ...arrays.indexing import bounds_of_each, renumbered, run_starts, stable_order, sums_by
 from ...arrays.vectors import cross, middles_of_each, second_moments_of_each, unit
 from ...mesh.corners import next_of_owner
 
@@ -52,9 +52,7 @@ def cap_map(points: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarr
     u = unit(u - (u * normal).sum(axis=1)[:, None] * normal)
     v = cross(normal, u)
     flat = density * np.stack([(offset * axis[island]).sum(axis=1) for axis in (u, v)], axis=1)
-    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
-    np.minimum.at(low, island, flat)
-    np.maximum.at(high, island, flat)
+    low, high = bounds_of_each(island, flat, count)
     return flat - low[island] + _in_rows(high - low)[island]
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...arrays.indexing import bounds_of_each
 from ...arrays.vectors import middles_of_each
 from ...result.parts import Parts
 from .touching import LOOSE, Touching
@@ -103,9 +104,7 @@ class Shapes:
         parts = touching.parts
         labels, count, center, points = parts.labels, parts.count, center @ turn.T, points @ turn.T
         total, middle = middles_of_each(labels, center, weight, count)
-        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-        np.minimum.at(low, labels[point_face], points)
-        np.maximum.at(high, labels[point_face], points)
+        low, high = bounds_of_each(labels[point_face], points, count)
         offset = center - middle[labels]
         spread = np.stack([np.bincount(labels, weight * offset[:, i] * offset[:, j], count)
                            for i in range(3) for j in range(3)], axis=1).reshape(-1, 3, 3) / total[:, None, None]

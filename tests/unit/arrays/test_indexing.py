@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from core.arrays.indexing import (
+    bounds_of_each,
     expanded,
     first_of_rows,
     is_last_of_each,
@@ -105,3 +106,9 @@ def test_sums_are_float64_of_no_rows_too(shape):
     assert found.dtype == np.float64
     assert found.shape == (3, *shape[1:])
     assert np.array_equal(found.reshape(3, -1)[:, 0], [0, shape[0], 0])
+
+
+def test_the_bounds_of_a_group_without_values_are_infinite():
+    low, high = bounds_of_each(np.array([2, 0, 2]), np.array([[1, 5], [2, 2], [3, -4]]), 3)
+    assert np.array_equal(low, [[2, 2], [np.inf, np.inf], [1, -4]])
+    assert np.array_equal(high, [[2, 2], [-np.inf, -np.inf], [3, 5]])
