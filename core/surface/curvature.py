@@ -8,7 +8,7 @@ from scipy.sparse import csr_array, diags_array
 
 from ..arrays.indexing import sums_by, taken
 from ..arrays.pairs import symmetric_matrix
-from ..arrays.vectors import second_moments_of_each
+from ..arrays.vectors import second_moments_of_each, unit
 from ..mesh.triangles import TriMesh
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
@@ -112,15 +112,15 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
     curvature : (len(scales), p) float64
         In units of 1 / square root of the area, at most MAX_CURVATURE in size; negative in concavities.
     """
-    unit = np.sqrt(mesh.area)
+    root = np.sqrt(mesh.area)
     a, b = mesh.edges.pairs.T
     way = taken(mesh.face_centroids, b) - taken(mesh.face_centroids, a)
     square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-12 * mesh.area)
     exchange = _exchange(mesh)
     normal, curvature = mesh.face_normals, []
     for scale in scales:
-        normal = _diffuse(mesh, exchange, (scale * unit) ** 2, normal)
-        change = np.einsum("ij,ij->i", taken(normal, b) - taken(normal, a), way) / square * unit
+        normal = _diffuse(mesh, exchange, (scale * root) ** 2, normal)
+        change = np.einsum("ij,ij->i", taken(normal, b) - taken(normal, a), way) / square * root
         curvature.append(np.clip(change, -MAX_CURVATURE, MAX_CURVATURE))
     return np.array(curvature)
 
@@ -161,7 +161,7 @@ def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray)
         last, power = power, np.multiply(residual, gradient, out=product).sum()
         step *= power / max(last, 1e-300)
         step += gradient
-    return x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
+    return unit(x)
 
 
 def angle_defect(mesh: TriMesh) -> np.ndarray:

@@ -18,6 +18,7 @@ from scipy.sparse.linalg import splu, spsolve
 from ..arrays.indexing import spread_evenly, sums_by
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.pairs import symmetric_matrix
+from ..arrays.vectors import cross, unit
 from ..mesh.labels import majority
 from ..mesh.triangles import TriMesh
 from .balls import ball_radius
@@ -226,7 +227,7 @@ def _without_wrinkles(
     start = np.hstack([mass[:, None] * mesh.vertices[of_sheet], normal[of_sheet]])
     smooth = splu(system.tocsc()).solve(start)
     smooth_normal = np.zeros((mesh.n_vertices, 3))
-    smooth_normal[of_sheet] = smooth[:, 3:] / np.maximum(np.linalg.norm(smooth[:, 3:], axis=1, keepdims=True), 1e-300)
+    smooth_normal[of_sheet] = unit(smooth[:, 3:])
     place, n = mesh.vertices.copy(), smooth_normal[of_sheet]
     place[of_sheet] += ((smooth[:, :3] - place[of_sheet]) * n).sum(axis=1, keepdims=True) * n
     return place, smooth_normal
@@ -237,8 +238,8 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
 
     thin, within : (m,) and (n,) bool, faces of the sheets and vertices within them; the height is 0 elsewhere.
     """
-    unit = np.sqrt(mesh.area)
-    place = (mesh.vertices - mesh.vertices.mean(axis=0)) / unit
+    root = np.sqrt(mesh.area)
+    place = (mesh.vertices - mesh.vertices.mean(axis=0)) / root
     point, inwards, ends = _outline(mesh, thin, place)
     tree = search_tree(np.concatenate([point, ends]))
     radius = ball_radius(tree, point, inwards, LARGEST_BALL, SLACK if tree.n > MOST_EXACT else 0.0)
@@ -249,7 +250,7 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     x, height = place[within], np.zeros(mesh.n_vertices)
     ball = nearest(search_tree(lifted), np.column_stack([x, np.zeros(len(x))]), [1, 2])[1] % len(center)
     height[within] = (radius[ball] ** 2 - ((x[:, None] - center[ball]) ** 2).sum(axis=2)).max(axis=1)
-    return unit * np.sqrt(np.maximum(height, 0.0))
+    return root * np.sqrt(np.maximum(height, 0.0))
 
 
 def _outline(mesh: TriMesh, thin: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -259,7 +260,6 @@ def _outline(mesh: TriMesh, thin: np.ndarray, place: np.ndarray) -> tuple[np.nda
     """
     face, corner = np.nonzero(_border_edges(mesh)[mesh.edges.face_edges] & thin[:, None])
     start, end = place[mesh.faces[face, corner]], place[mesh.faces[face, (corner + 1) % 3]]
-    inwards = np.cross(mesh.face_normals[face], end - start)
-    inwards /= np.maximum(np.linalg.norm(inwards, axis=1, keepdims=True), 1e-300)
+    inwards = unit(cross(mesh.face_normals[face], end - start))
     along = (np.arange(PER_EDGE) + 0.5)[:, None, None] / PER_EDGE
     return (start + along * (end - start)).reshape(-1, 3), np.tile(inwards, (PER_EDGE, 1)), start

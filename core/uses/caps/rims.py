@@ -7,6 +7,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered
+from ...arrays.vectors import cross_in_plane
 from .surfaces import over_a_plane
 
 # A rim within another one may be so far off its plane, or off what is nearest of it where that is bent, too, as a share
@@ -43,15 +44,19 @@ def nested_rims(points: np.ndarray, ends: np.ndarray, pairs: np.ndarray) -> list
     for part in np.unique(parts[closed], axis=0):
         own = np.flatnonzero(closed & (parts == part).all(axis=1))
         if len(own) > 1:
-            found += _nested(points, [_walk(ends[of_edge == one]) for one in own.tolist()])
+            found += _nested(points, [walk_round(*ends[of_edge == one].T) for one in own.tolist()])
     return found
 
 
-def _walk(edges: np.ndarray) -> np.ndarray:
-    """The vertices round a closed curve of directed edges, (j, 2), from the least one."""
-    order = np.argsort(edges[:, 0])
-    start = edges[order, 0]
-    after = np.searchsorted(start, edges[order, 1])
+def walk_round(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """List the vertices round a closed curve, from the least one.
+
+    start, end : (k,) int64, the ends of directed edges, one to each vertex and one from it. Returns (j,) int64; of
+    several curves only the first, with j less than k.
+    """
+    order = np.argsort(start)
+    start = start[order]
+    after = np.searchsorted(start, end[order])
     walk = [0]
     while (step := int(after[walk[-1]])) != 0:
         walk.append(step)
@@ -87,8 +92,7 @@ def _is_within(outer: np.ndarray, inner: np.ndarray) -> bool:
     apart = inside - height[cKDTree(around).query(own)[1]]
     if min(np.abs(inside).max(), np.abs(apart).max()) > _OFF * np.linalg.norm(outer - middle, axis=1).max():
         return False
-    x, y = own.T
-    turn = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+    turn = cross_in_plane(own, np.roll(own, -1, axis=0)).sum()
     return bool(turn < 0 and is_inside(own, np.stack([around, np.roll(around, -1, axis=0)], axis=1)).all())
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered
+from .rims import walk_round
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,12 +123,8 @@ def _closed(start: np.ndarray, stop: np.ndarray) -> np.ndarray | None:
     """The one closed curve of some directed edges, (j,) int64; None if they are anything else."""
     if not len(start):
         return start
-    order = np.argsort(start, kind="stable")
-    start, stop = start[order], stop[order]
-    if (start[1:] == start[:-1]).any() or not np.array_equal(start, np.sort(stop)):
+    begins = np.sort(start)
+    if (begins[1:] == begins[:-1]).any() or not np.array_equal(begins, np.sort(stop)):
         return None
-    after = np.searchsorted(start, stop)
-    walk = [0]
-    while (step := int(after[walk[-1]])) != 0:
-        walk.append(step)
-    return start[walk] if len(walk) == len(start) else None
+    walk = walk_round(start, stop)
+    return walk if len(walk) == len(start) else None

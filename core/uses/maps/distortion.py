@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.indexing import inverse, sums_by
+from ...arrays.vectors import cross_in_plane
 from ...mesh.corners import CornerTable
 
 #: Areas between these, as multiples of their share of the whole map, are called even.
@@ -78,9 +79,7 @@ def distortion(table: CornerTable, flat: np.ndarray) -> Distortion:
 
 def _areas(table: CornerTable, flat: np.ndarray) -> np.ndarray:
     """Signed area of each face in the map, (p,)."""
-    following = table.next_corner
-    cross = flat[:, 0] * flat[following, 1] - flat[:, 1] * flat[following, 0]
-    return sums_by(table.corner_face, 0.5 * cross, table.n_faces)
+    return sums_by(table.corner_face, 0.5 * cross_in_plane(flat, flat[table.next_corner]), table.n_faces)
 
 
 def _angles(table: CornerTable, points: np.ndarray) -> np.ndarray:
