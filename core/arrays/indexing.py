@@ -258,6 +258,17 @@ def hashed_rows(points: np.ndarray) -> np.ndarray:
     return x ^ y ^ z
 
 
+def hashed_sets(owner: np.ndarray, member: np.ndarray, count: int) -> np.ndarray:
+    """Numbers, (count,) uint64, that are equal for owners of the same members in any order, and hardly ever for others.
+
+    owner, member : (n,) int64, 0..count-1, and 0 or more.
+    """
+    scattered = np.random.default_rng(0).integers(0, 1 << 63, int(member.max(initial=-1)) + 1, dtype=np.uint64)
+    total = np.zeros(count, np.uint64)
+    np.add.at(total, owner, scattered[member])  # sums wrap around
+    return total
+
+
 def _mixed(values: np.ndarray, factor: int) -> np.ndarray:
     """Numbers, (n,) uint64, that differ in all bits where values, (n,) float64, differ.
 

@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.components import components
+from ...core.arrays.indexing import hashed_sets
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.triangles import EdgeTable
 from ..pieces.closing import caps
@@ -105,14 +106,10 @@ def _cap_faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray
 def _names(corners: np.ndarray, faces: list[np.ndarray]) -> np.ndarray:
     """A number for each face that faces with corners at the same places share, (f,) uint64."""
     place = _places(corners.astype(np.float64))
-    # Sums of scattered numbers: those of different sets of places differ.
-    scattered = np.random.default_rng(0).integers(0, 1 << 63, int(place.max()) + 1, dtype=np.uint64)
     count = [int(some.max(initial=-1)) + 1 for some in faces]
     start = np.cumsum([0, *count])
     face = np.concatenate([some + first for some, first in zip(faces, start, strict=False)])
-    total = np.zeros(start[-1], np.uint64)
-    np.add.at(total, face, scattered[place])
-    return total
+    return hashed_sets(face, place, int(start[-1]))
 
 
 def _places(points: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.arrays.indexing import inverse
+from ...core.arrays.indexing import hashed_sets, inverse
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.borders import GAP
 from ...core.mesh.corners import next_of_owner
@@ -101,10 +101,7 @@ def _wrong(whole: Elements, first: np.ndarray) -> np.ndarray:
     edges, number = distinct_pairs(*np.sort(first[whole.ends], axis=1).T)
     crowded = np.bincount(number[whole.corner_edge], minlength=len(edges)) > 2
     wrong[edges[crowded]] = True
-    # Faces of the same vertices have the same sum of scattered numbers.
-    scattered = np.random.default_rng(0).integers(0, 1 << 63, len(first), dtype=np.uint64)
-    total = np.add.reduceat(scattered[vertex], np.cumsum(whole.count) - whole.count) if len(vertex) else scattered[:0]
-    _, place, n_faces = np.unique(total, return_inverse=True, return_counts=True)
+    _, place, n_faces = np.unique(hashed_sets(face, vertex, len(whole.count)), return_inverse=True, return_counts=True)
     wrong[vertex[(n_faces[place.ravel()] > 1)[face]]] = True
     return wrong & receives
 

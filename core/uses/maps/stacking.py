@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.indexing import hashed_sets
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane
 
@@ -75,12 +76,9 @@ def double_corners(table: CornerTable, among: np.ndarray) -> np.ndarray:
         same vertex; -1 for all other corners.
     """
     owner = table.corner_face
-    # Faces of the same vertices have the same sum of scattered numbers.
-    scattered = np.random.default_rng(0).integers(0, 1 << 63, len(table.vertices), dtype=np.uint64)
-    total = np.zeros(table.n_faces, np.uint64)
-    np.add.at(total, owner, scattered[table.corner_vertex])
     faces = np.flatnonzero(among)
-    _, earliest, group = np.unique(total[faces], return_index=True, return_inverse=True)
+    _, earliest, group = np.unique(hashed_sets(owner, table.corner_vertex, table.n_faces)[faces], return_index=True,
+                                   return_inverse=True)
     original = np.arange(table.n_faces)
     original[faces] = faces[earliest[group.ravel()]]
     # By vertex, the corners of both faces are in the same order.

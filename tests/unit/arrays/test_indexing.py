@@ -10,6 +10,7 @@ from core.arrays.indexing import (
     bounds_of_each,
     expanded,
     first_of_rows,
+    hashed_sets,
     is_last_of_each,
     last_of_each,
     place_among,
@@ -112,3 +113,10 @@ def test_the_bounds_of_a_group_without_values_are_infinite():
     low, high = bounds_of_each(np.array([2, 0, 2]), np.array([[1, 5], [2, 2], [3, -4]]), 3)
     assert np.array_equal(low, [[2, 2], [np.inf, np.inf], [1, -4]])
     assert np.array_equal(high, [[2, 2], [-np.inf, -np.inf], [3, 5]])
+
+
+def test_owners_of_the_same_members_have_one_number_in_any_order():
+    sets = [(4, 7, 1), (7, 1, 4), (4, 7), (4, 7, 2), (), (7, 4), ()]
+    owner = np.repeat(np.arange(len(sets)), [len(members) for members in sets])
+    found = hashed_sets(owner, np.concatenate(sets).astype(np.int64), len(sets))
+    assert [found.tolist().index(number) for number in found] == [0, 0, 2, 3, 4, 2, 4]
