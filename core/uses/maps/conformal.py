@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array, diags
+from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu
 
 from ...arrays.indexing import sums_by
@@ -50,7 +50,7 @@ class ConformalFactor:
         pairs, which = distinct_pairs(*np.concatenate(ends).reshape(-1, 2).T)
         weights = symmetric_matrix(
             pairs, np.maximum(sums_by(which, np.concatenate(weight), len(pairs)), _WEAKEST), n)
-        return cls(csr_array(diags(np.asarray(weights.sum(axis=1)).ravel()) - weights), 2 * np.pi - angle)
+        return cls(diags_array(weights.sum(axis=1)).tocsr() - weights, 2 * np.pi - angle)
 
     def solve(self, free: np.ndarray) -> np.ndarray:
         """Find the logarithm of the scale of lengths at each vertex, of the map that keeps lengths at all others.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components, dijkstra, minimum_spanning_tree
+from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...arrays.components import components
 from ...arrays.indexing import last_of_each
@@ -172,19 +172,18 @@ class _Charts:
 
     @property
     def count(self) -> int:
+        """Number of charts."""
         return len(self.closed)
 
     @classmethod
     def of(cls, table: CornerTable, cut: np.ndarray) -> _Charts:
         """cut : (e,) bool; edges that do not have exactly two faces count as cut."""
-        n_faces = table.n_faces
         faces_at = table.n_edge_faces
         inner = np.flatnonzero((faces_at == 2) & ~cut)
         border = np.flatnonzero((faces_at > 0) & ((faces_at != 2) | cut))
         pairs, edge = table.face_pairs()
         pairs = pairs[np.searchsorted(edge, inner)]
-        graph = coo_matrix((np.ones(len(pairs)), pairs.T), (n_faces, n_faces))
-        count, of_face = connected_components(graph, directed=False)
+        count, of_face = components(table.n_faces, *pairs.T)
         of_vertex = np.zeros(len(table.vertices), np.int64)
         of_vertex[table.corner_vertex] = of_face[table.corner_face]
         used = np.unique(table.corner_vertex)

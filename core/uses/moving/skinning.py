@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from operator import itemgetter
 
 import numpy as np
-from scipy.sparse import csr_array, diags
+from scipy.sparse import csr_array, diags_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
@@ -209,7 +209,7 @@ def _stiffened(laplacian: csr_array, table: CornerTable, stiffness: np.ndarray) 
     np.maximum.at(spring, table.corner_edge, stiffness[table.corner_face])
     some = np.flatnonzero(spring)
     springs = symmetric_matrix(table.edges[some], spring[some], len(table.vertices))
-    return csr_array(laplacian + diags(np.asarray(springs.sum(axis=1)).ravel()) - springs)
+    return laplacian + diags_array(springs.sum(axis=1)).tocsr() - springs
 
 
 def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones,
