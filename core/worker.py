@@ -22,6 +22,7 @@ from typing import Any
 from .errors import ReebError
 from .handover import arguments, plain_error, read_request, read_shape, write_result
 from .memory import keep_freed_memory
+from .parameters import Parameters
 from .pipeline import decompose
 
 # Seconds between two messages about progress; nobody looks more often.
@@ -74,7 +75,7 @@ def say(**message: Any) -> None:
     sys.stdout.flush()
 
 
-def _arguments(folder: Path, number: int, parameters: Any) -> dict[str, Any]:
+def _arguments(folder: Path, number: int, parameters: Parameters) -> dict[str, Any]:
     """What ``decompose`` is called with for a shape."""
     said: list[Any] = ["", 0.0]  # the last stage, and when
 

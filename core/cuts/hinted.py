@@ -29,6 +29,7 @@ LEAST_CUT_OUT = 0.002
 # Least salience between cells of different hints: there, that the method saw no cut counts for nothing.
 LEAST_SALIENCE = 0.2
 ROUNDING = 1e-6  # bounds of saliences, whose log-odds are to be finite
+NO_AREA = 1e-6  # share of the whole area that is added to the vote of each face, as some have none
 
 
 def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandidates:
@@ -51,7 +52,7 @@ def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandi
     graph, label = candidates.graph, candidates.label
     cell = _cells(graph, label, hint)
     area = np.bincount(cell, graph.area)
-    own, said = (majority(cell, named, graph.area + ROUNDING * area.sum(), len(area)) for named in (label, hint))
+    own, said = (majority(cell, named, graph.area + NO_AREA * area.sum(), len(area)) for named in (label, hint))
     pairs, _ = candidates.touching_graph().boundaries(cell)
     a, b = pairs.T
     salience = candidates.hierarchy.salience_between(own[a], own[b])

@@ -194,7 +194,7 @@ def _minimum_cut(
     true, to the sink elsewhere.
     """
     capacity = np.maximum(np.rint(cost / cost.mean() * UNITS), 1.0)
-    endless = float(2**30)
+    endless = float(2**30)  # what no cut is to go through; SciPy takes numbers of 32 bits
     source, sink = n, n + 1
     rows = np.concatenate([a, b, np.full(is_source.sum(), source), held[~is_source]])
     columns = np.concatenate([b, a, held[is_source], np.full((~is_source).sum(), sink)])

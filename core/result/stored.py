@@ -283,10 +283,12 @@ def _real_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[int, ...]]:
 
 
 def _is_whole(array: np.ndarray, shape: tuple[int, ...], low: int, high: int) -> bool:
+    """Whether an array has a shape and holds whole numbers from ``low`` on and below ``high``."""
     return array.shape == shape and array.dtype.kind == "i" and bool(((array >= low) & (array < high)).all())
 
 
 def _is_real(array: np.ndarray, shape: tuple[int, ...], finite: bool) -> bool:
+    """Whether an array has a shape and holds numbers that are finite, if they have to be, not all of them whole."""
     # Where nothing touches, 0.1.0 wrote the lengths, of which there are none, as whole numbers.
     real = array.dtype.kind == "f" or not array.size
     return array.shape == shape and real and (not finite or bool(np.isfinite(array).all()))

@@ -13,7 +13,7 @@ STEPS = 12  # upper bound of the number of times that a ball shrinks
 # Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
 # before the angle falls below this one: it would only fit into the roughness of the surface.
 SEPARATION = np.cos(np.deg2rad(50.0))
-BEFORE = 1.0 - 1e-4
+BEFORE = 1.0 - 1e-4  # share of its radius at which a ball's nearest point is searched: a little before the center
 
 
 def ball_radius(
@@ -24,7 +24,7 @@ def ball_radius(
     Parameters
     ----------
     tree : cKDTree
-        Of the points that no ball may hold.
+        Of the points that no ball may hold, in units of about the size of the surface.
     point : (k, 3) float64
         Where each ball touches.
     direction : (k, 3) float64

@@ -143,6 +143,7 @@ class Images:
 
     @cached_property
     def _local(self) -> MirrorPlane:
+        """The plane in the frame of the elements."""
         return self.faces.inwards(self.plane)
 
     @cached_property

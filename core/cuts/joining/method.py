@@ -232,10 +232,12 @@ def _pair_weight(parts: FineParts, pairs: np.ndarray) -> np.ndarray:
 
 
 def _judged(model: BoostedTrees, features: np.ndarray) -> np.ndarray:
+    """Log-odds, (e,) float64, that a model gives pairs of parts by their features, (e, k)."""
     return _log_odds(np.clip(model.predict(in_steps(features)), *SURE))
 
 
 def _log_odds(share: np.ndarray) -> np.ndarray:
+    """Log-odds of shares, which are above 0 and below 1."""
     return np.log(share / (1 - share))
 
 
