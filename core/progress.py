@@ -55,8 +55,8 @@ class Stopwatch:
         self.share = until
 
 
-def said_in_steps(say: Callable[[str], object], steps: int = 20) -> Progress:
-    """Make a progress that says how far a run is, in so many lines at most.
+def said_in_steps(say: Callable[[str], object]) -> Progress:
+    """Make a progress that says how far a run is, about every twentieth of it.
 
     say : callable, given a line such as "cuts 55%". Returns a Progress for one run.
     """
@@ -64,8 +64,8 @@ def said_in_steps(say: Callable[[str], object], steps: int = 20) -> Progress:
 
     def progress(stage: str, share: float) -> None:
         nonlocal last
-        if round(steps * share) > last:
-            last = round(steps * share)
+        if round(20 * share) > last:
+            last = round(20 * share)
             say(f"{stage} {share:.0%}")
 
     return progress

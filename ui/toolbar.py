@@ -20,11 +20,11 @@ from .fitting import Room
 IDNAME = "reeb_parts.parts"
 
 
-def _item(operator: str, key: str, value: str = "PRESS", properties: dict[str, Any] | None = None,
+def _item(operator: str, key: str, properties: dict[str, Any] | None = None,
           **held: bool) -> tuple[str, dict[str, Any], dict[str, Any] | None]:
     """An item of a keymap, as Blender writes them. held : shift, ctrl or alt."""
     given = {"properties": list(properties.items())} if properties else None
-    return operator, {"type": key, "value": value, **held}, given
+    return operator, {"type": key, "value": "PRESS", **held}, given
 
 
 KEYMAP = (  # Blender asks in no order that can be relied on
