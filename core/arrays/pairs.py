@@ -52,6 +52,14 @@ def pair_keys(pairs: np.ndarray, count: int) -> np.ndarray:
     return pairs @ np.array([count, 1], np.int64)
 
 
+def edge_keys(start: np.ndarray, end: np.ndarray, *, count: int) -> np.ndarray:
+    """One whole number for each edge, whichever of its ends comes first: what ``pair_keys`` gives with the lower first.
+
+    start, end : of int, of one shape, 0..count-1. Returns int64 of this shape.
+    """
+    return np.minimum(start, end).astype(np.int64, copy=False) * count + np.maximum(start, end)
+
+
 def are_among(pairs: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Whether each pair is one of some others, (n,) bool. pairs, others : (n, 2) and (k, 2) int64, 0 or more."""
     count = int(max(pairs.max(initial=0), others.max(initial=0))) + 1

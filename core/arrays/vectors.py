@@ -31,6 +31,12 @@ def unit(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.maximum(lengths(vectors), 1e-300)[:, None]
 
 
+def across(direction: np.ndarray) -> np.ndarray:
+    """A unit vector, (3,) float64, at a right angle to a direction, (3,) float64, which is not 0."""
+    found = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])
+    return found / np.linalg.norm(found)
+
+
 def weighted_sum(weights: np.ndarray, values: np.ndarray) -> np.ndarray | float:
     """Sum values, each times its weight, in an order that is the same everywhere.
 

@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from ..arrays.indexing import run_starts, stable_order, taken
-from ..arrays.pairs import symmetric_matrix
+from ..arrays.pairs import edge_keys, symmetric_matrix
 from ..arrays.vectors import lengths, row_products
 from ..errors import DisconnectedMeshError
 from ..mesh.triangles import ON_A_LINE, TriMesh
@@ -82,7 +82,7 @@ def _path_graph(mesh: TriMesh, links: np.ndarray) -> csr_array:
 
 def _shortest_of(rows: np.ndarray, columns: np.ndarray, length: np.ndarray, n: int) -> csr_array:
     """Symmetric (n, n) matrix with the shortest of the lengths that are given for each pair, in either direction."""
-    key = np.minimum(rows, columns) * n + np.maximum(rows, columns)
+    key = edge_keys(rows, columns, count=n)
     order = stable_order(key)
     key = key[order]
     first = run_starts(key)

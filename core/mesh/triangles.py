@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, frozen, renumbered, stable_order, sums_by, taken
+from ..arrays.pairs import edge_keys
 from ..arrays.vectors import cross, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
@@ -314,7 +315,7 @@ class EdgeTable:
         """
         start, end = faces, np.roll(faces, -1, axis=1)
         # NumPy sorts sides that are packed into one integer far faster than rows.
-        key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
+        key = edge_keys(start, end, count=n_vertices).ravel()
         order = stable_order(key)
         key = key[order]
         begins = begins_run(key)

@@ -15,6 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
 
+from ...core.arrays.vectors import across
 from ..errors import SceneError
 from ..reading import mesh_arrays, mesh_groups
 from ..reading.matrix_layers import as_bmesh
@@ -257,8 +258,7 @@ def _cap(edges: list[tuple[BMVert, BMVert]], normal: np.ndarray) -> np.ndarray |
     if len(vertices) < 3:
         return None
     place = {vertex: i for i, vertex in enumerate(vertices)}
-    u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-    u /= np.linalg.norm(u)
+    u = across(normal)
     flat = np.array([vertex.co[:] for vertex in vertices]) @ np.stack([u, np.cross(normal, u)], axis=1)
     flat = (flat - flat.mean(axis=0)) / max(float(np.ptp(flat, axis=0).max()), 1e-30)
     ends = [(place[a], place[b]) for a, b in edges]

@@ -15,7 +15,7 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
-from ...arrays.pairs import pair_keys
+from ...arrays.pairs import edge_keys, pair_keys
 from ...arrays.ties import on_grid, rounded
 from .pairs import PartPairs, Salience, cut_between
 
@@ -143,7 +143,7 @@ def _joining(pairs: np.ndarray, level: np.ndarray) -> tuple[np.ndarray, np.ndarr
         return pairs, level
     count = int(pairs.max()) + 1
     # Of two pairs with the same members the first counts; SciPy would add the numbers of both.
-    _, first = np.unique(pair_keys(np.sort(pairs, axis=1), count), return_index=True)
+    _, first = np.unique(edge_keys(*pairs.T, count=count), return_index=True)
     ends = pairs[first].T.astype(np.int32)  # SciPy's trees take no others
     tree = minimum_spanning_tree(csr_array((first + 1.0, ends), shape=(count, count)))
     kept = np.sort(tree.data.astype(np.int64)) - 1

@@ -15,7 +15,7 @@ from scipy.sparse import csr_array
 
 from ...arrays.components import components, roots
 from ...arrays.indexing import renumbered
-from ...arrays.pairs import pair_keys
+from ...arrays.pairs import edge_keys
 from ...arrays.ties import rounded
 from ...mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from ...symmetry.group import SymmetryGroup
@@ -289,12 +289,12 @@ def _lack_an_image(names: np.ndarray, pairs: np.ndarray, leading: _LeadingCells)
 
     names : (n,) int64, rising. pairs : (k, 2) int64, places of cells that touch. Returns (n,) bool.
     """
-    touching = pair_keys(np.sort(pairs, axis=1), len(names))
+    touching = edge_keys(*pairs.T, count=len(names))
     leader, _ = leading.of_names(names)
     lack = np.zeros(len(names), bool)
     for element in leading.group.elements[1:]:
         image = _places(names, leading.name_of_image(names, element))
-        images_touch = np.isin(pair_keys(np.sort(image[pairs], axis=1), len(names)), touching)
+        images_touch = np.isin(edge_keys(*image[pairs].T, count=len(names)), touching)
         beside = np.zeros(len(names), bool)
         beside[pairs[images_touch & (image[pairs] >= 0).all(axis=1)]] = True
         lack |= leading.has_image[leader, element] & ~(beside & (image >= 0))

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import bounds_of_each, renumbered, run_starts, stable_order, sums_by
+from ...arrays.pairs import edge_keys
 from ...arrays.vectors import cross, middles_of_each, second_moments_of_each, unit
 from ...mesh.corners import next_of_owner
 
@@ -59,7 +60,7 @@ def cap_map(points: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarr
 def _islands(start: np.ndarray, stop: np.ndarray, face: np.ndarray, area: np.ndarray) -> np.ndarray:
     """Faces that are joined by edges where they turn little: number of each, (f,) int64."""
     n = int(max(start.max(initial=0), stop.max(initial=0))) + 1
-    key = np.minimum(start, stop) * n + np.maximum(start, stop)
+    key = edge_keys(start, stop, count=n)
     order = stable_order(key)
     same = key[order[1:]] == key[order[:-1]]
     a, b = face[order[1:]][same], face[order[:-1]][same]

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered
+from ...arrays.pairs import edge_keys, pair_keys
 from .rims import walk_round
 
 
@@ -60,11 +61,9 @@ def sleeve(n: int, triangles: np.ndarray, labels: np.ndarray, curve: np.ndarray,
     if not len(chosen):
         return None
     start, stop = chosen.ravel(), np.roll(chosen, -1, axis=1).ravel()
-    key, index, count = np.unique(np.minimum(start, stop) * n + np.maximum(start, stop), return_index=True,
-                                  return_counts=True)
-    rim = np.minimum(curve, np.roll(curve, -1)) * n + np.maximum(curve, np.roll(curve, -1))
+    key, index, count = np.unique(edge_keys(start, stop, count=n), return_index=True, return_counts=True)
     alone = count == 1
-    is_rim = np.isin(key, rim)
+    is_rim = np.isin(key, edge_keys(curve, np.roll(curve, -1), count=n))
     if (count > 2).any() or (is_rim & alone).sum() != len(curve):
         return None
     other = index[alone & ~is_rim]
@@ -82,11 +81,11 @@ def sleeve(n: int, triangles: np.ndarray, labels: np.ndarray, curve: np.ndarray,
 
 def _halved(triangles: np.ndarray, edges: np.ndarray, n: int) -> np.ndarray:
     """Triangles divided where some edges, (s, 2), get a point in their middle: n, n+1, ...; (u, 3) int64."""
-    left = np.sort(edges @ [n, 1])
-    point = n + np.argsort(edges @ [n, 1])
+    key = pair_keys(edges, n)
+    left, point = np.sort(key), n + np.argsort(key)
     while len(left):
         start, stop = triangles, np.roll(triangles, -1, axis=1)
-        key = np.minimum(start, stop) * n + np.maximum(start, stop)
+        key = edge_keys(start, stop, count=n)
         key = np.where(np.isin(key, left) & (start < n) & (stop < n), key, -1)
         first = np.where(key >= 0, key, np.iinfo(np.int64).max).min(axis=1)
         # An edge is halved if it is the first one of both its triangles.

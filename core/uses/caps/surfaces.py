@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...arrays.indexing import sums_by
-from ...arrays.vectors import cross, lengths
+from ...arrays.vectors import across, cross, lengths
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -53,8 +53,7 @@ def over_a_plane(curve: np.ndarray, others: np.ndarray | None = None) -> np.ndar
     if not length > 1e-6 * size**2:
         return None
     normal /= length
-    u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-    u /= np.linalg.norm(u)
+    u = across(normal)
     every = around if others is None else np.concatenate([around, others - middle])
     return every @ np.stack([u, np.cross(normal, u)], axis=1) / size
 

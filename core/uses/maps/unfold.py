@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...arrays.components import components
 from ...arrays.indexing import last_of_each
-from ...arrays.pairs import pair_keys
+from ...arrays.pairs import edge_keys
 from ...mesh.corners import CornerTable
 from .conformal import ConformalFactor
 
@@ -205,7 +205,7 @@ def _shortest_paths(
     Returns the distance of each vertex, (n,), the first edge of its path, (n,), -1 for none, and whether each edge
     belongs to a path, (e,) bool.
     """
-    key = pair_keys(np.sort(edges[inner], axis=1), n)
+    key = edge_keys(*edges[inner].T, count=n)
     order = np.argsort(key)
     weight = length[inner] + 1e-9 * length.max(initial=1.0)  # of paths of one length that of fewest edges
     graph = coo_matrix((weight, edges[inner].T), (n, n)).tocsr()
@@ -214,7 +214,7 @@ def _shortest_paths(
     )
     before = np.full(n, -1)
     reached = np.flatnonzero(previous >= 0)
-    step = pair_keys(np.sort(np.stack([reached, previous[reached]], axis=1), axis=1), n)
+    step = edge_keys(reached, previous[reached], count=n)
     before[reached] = inner[order[np.searchsorted(key[order], step)]]
     tree = np.zeros(len(edges), bool)
     tree[before[reached]] = True
@@ -229,11 +229,11 @@ def _in_cotree(pairs: np.ndarray, weight: np.ndarray, tree: np.ndarray, n_faces:
     free = np.flatnonzero(~tree)
     graph = coo_matrix((2 * weight.max(initial=1.0) - weight[free], pairs[free].T), (n_faces, n_faces)).tocsr()
     kept = minimum_spanning_tree(graph).tocoo()
-    key = pair_keys(np.sort(pairs[free], axis=1), n_faces)
+    key = edge_keys(*pairs[free].T, count=n_faces)
     crossed = np.zeros(len(pairs), bool)
     # Where two faces share several edges, the tree crosses the first of them only.
     _, first = np.unique(key, return_index=True)
-    taken = np.isin(key[first], pair_keys(np.sort(np.stack([kept.row, kept.col], axis=1), axis=1), n_faces))
+    taken = np.isin(key[first], edge_keys(kept.row, kept.col, count=n_faces))
     crossed[free[first[taken]]] = True
     return crossed
 

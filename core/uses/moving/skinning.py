@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
-from ...arrays.vectors import lengths
+from ...arrays.vectors import across, lengths
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
 from ..maps.conformal import ConformalFactor, solved
@@ -377,8 +377,7 @@ def _of_area(table: CornerTable) -> CornerTable:
 def bends(along: np.ndarray, angle: float) -> list[np.ndarray]:
     """Rotations, (3, 3), by an angle in radians about four axes at right angles to a direction, (3,)."""
     direction = along / max(float(np.linalg.norm(along)), np.finfo(float).tiny)
-    first = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])
-    first /= np.linalg.norm(first)
+    first = across(direction)
     second = np.cross(direction, first)
     return list(Rotation.from_rotvec(angle * np.stack([first, second, -first, -second])).as_matrix())
 
