@@ -152,11 +152,8 @@ def _at_places(mesh: TriMesh, place: np.ndarray) -> TriMesh:
     count = int(place.max(initial=-1)) + 1
     if count == mesh.n_vertices:
         return mesh
-    low, high = np.full((3, count), np.inf), np.full((3, count), -np.inf)
-    for coordinate, least, most in zip(mesh.vertices.T, low, high, strict=True):
-        np.minimum.at(least, place, coordinate)
-        np.maximum.at(most, place, coordinate)
-    return TriMesh(((low + high) / 2).T, place[mesh.faces])
+    low, high = bounds_of_each(place, mesh.vertices, count)
+    return TriMesh(low / 2 + high / 2, place[mesh.faces])  # vertices of no face may be at the largest number
 
 
 def _with_split_vertices(ordering: Ordering, place: np.ndarray, given: PolygonMesh) -> Ordering:
