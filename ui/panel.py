@@ -343,6 +343,7 @@ def _draw_tools(layout: bpy.types.UILayout, context: bpy.types.Context, room: Ro
     # In a context of our own: by "Cut", Blender means the clipboard, and in some languages says so.
     flow = room.grid(layout, *(iface_(word, "Reeb Parts") for word in ("Pick", "Cut", "Slide", "Paint")), icons=1)
     toolbar.draw_button(flow, context, room)
+    flow.operator_context = "INVOKE_DEFAULT"  # asked in the sidebar, and not for the view, whether they can be pressed
     room.operator(flow, "reeb_parts.cut", text="Cut", text_ctxt="Reeb Parts", icon="MOD_BOOLEAN")
     room.operator(flow, "reeb_parts.slide", text="Slide", text_ctxt="Reeb Parts", icon="ARROW_LEFTRIGHT")
     room.operator(flow, "reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")

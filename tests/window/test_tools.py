@@ -111,6 +111,12 @@ def test_a_tool_starts_from_its_button(seen, name):
     assert seen[f"button {name}"] == [f"REEB_PARTS_OT_{name.lower()}"]
 
 
+def test_buttons_of_tools_are_grey_in_edit_mode(seen):
+    """They could be pressed, since Blender asked for the view, in which no button is, whether they can."""
+    assert seen["pressed in OBJECT"] == [f"REEB_PARTS_OT_{name}" for name in ("cut", "slide", "paint")]
+    assert seen["pressed in EDIT"] == []
+
+
 def test_the_graph_is_seen_with_its_model_in_local_view(seen):
     """It stayed behind, and the eye said that it was shown."""
     assert seen["graph in local view"] == [True, False, True]

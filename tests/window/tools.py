@@ -284,6 +284,23 @@ def in_this_view():
     return [item.name for item in spot().children if item.visible_get(viewport=space)]
 
 
+def pressed_in_edit_mode():
+    """A click on each of the buttons, and which of them did anything."""
+    places, started = [], []
+    for name, beside in BUTTONS.items():
+        places += [(yield from pointer.find(f"reeb_parts.{name.lower()}", beside))]
+    tool = sys.modules[f"{PACKAGE}.viewport.modal.view_tool"].ViewTool
+    own, tool.invoke = tool.invoke, lambda self, *_: started.append(self.bl_idname) or {"CANCELLED"}
+    for mode in ("EDIT", "OBJECT"):
+        in_view(lambda mode=mode: bpy.ops.object.mode_set(mode=mode))
+        yield 0.5
+        for place in places:
+            yield from pointer.press(*place)
+        note(f"pressed in {mode}", started[:])
+        started.clear()
+    tool.invoke = own
+
+
 def elsewhere():
     """From the button in the sidebar; in local view; in a maximised area; in each of four views."""
     for name, beside in BUTTONS.items():
@@ -292,6 +309,7 @@ def elsewhere():
         note(f"button {name}", at_work())
         yield from pointer.rest(*pointer.in_view())
         yield from pointer.tap("Escape")
+    yield from pressed_in_edit_mode()
     in_view(bpy.ops.view3d.localview)  # the key, numpad /, is not on all keyboards
     yield 2.0  # it comes along once Blender has time
     note("graph in local view", graph_in_local_view())
