@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 
 from ...core.mesh.labels import majority
+from ...core.parameters import Parameters
 from ...core.result.decomposition import Decomposition
 from ...core.result.numbering import inherited
 from .. import bridge, store
@@ -41,19 +42,33 @@ class _Former:
 def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -> Stored:
     """A new result for an object's mesh; its parts take over the numbers of those that the faces were in until now.
 
-    Pinned parts keep their faces: candidates are cut where they reach into one. New faces are pinned where most of
-    their candidate is. shape : of the object, see ``bridge.read_shape``.
+    If it is the result of before, only the level of detail changes. Pinned parts keep their faces: candidates are
+    cut where they reach into one. New faces are pinned where most of their candidate is. shape : of the object, see
+    ``bridge.read_shape``.
     """
+    parameters = decomposition.parameters
+    old = _last(obj.data)
+    if old is not None and _is_same(old.decomposition, decomposition):
+        same = replace(old, decomposition=decomposition)
+        return same.showing(same.parts(parameters.detail, parameters.n_parts))
     previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
-    former = _former(obj.data)
+    former = _former(obj.data, old, parameters)
     if former is not None and len(former.number) == decomposition.n_faces and former.number.any():
         previous, pinned = former.of_candidates(decomposition)
         if former.pinned.any():
             decomposition = _cut_around_pins(obj, shape, decomposition, former, pinned[decomposition.candidates])
             previous, pinned = former.of_candidates(decomposition)
-    parameters = decomposition.parameters
     numbers = inherited(decomposition, parameters.detail, parameters.n_parts, previous, pinned)
     return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
+
+
+def _is_same(one: Decomposition, other: Decomposition) -> bool:
+    """Whether two decompositions of one mesh have the same parts at every level."""
+    return all(np.array_equal(*pair) for pair in (
+        (one.candidates, other.candidates),
+        (one.hierarchy.merges, other.hierarchy.merges),
+        (one.hierarchy.salience, other.hierarchy.salience),
+    ))
 
 
 def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition, former: _Former,
@@ -70,21 +85,31 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
     return split_around(decomposition, pinned, *bridge.face_graph(obj, shape))
 
 
-def _former(mesh: bpy.types.Mesh) -> _Former | None:
-    """The parts of a mesh's faces until now, None if it had none. Survives edits of the mesh."""
+def _last(mesh: bpy.types.Mesh) -> Stored | None:
+    """What is stored with a mesh; None if that is nothing, of another version, or of the mesh before it was edited."""
+    if not store.has_result(mesh):
+        return None
+    try:
+        return store.load(mesh)
+    except SceneError:
+        return None
+
+
+def _former(mesh: bpy.types.Mesh, old: Stored | None, parameters: Parameters) -> _Former | None:
+    """The parts of a mesh's faces until now, None if it had none. Survives edits of the mesh.
+
+    old : what ``_last`` returns; its parts at the level of detail that the new ones are to have.
+    """
     if not store.has_result(mesh):
         return None
     result = mesh.reeb_parts
-    try:
-        old = store.load(mesh)
-    except SceneError:  # edited, or from another version: what is left is on the faces
-        pass
-    else:
+    if old is not None:
         # A part of a finer level that the user has named or colored is found again by the next run, too.
         kept = np.isin(old.shown, [entry.number for entry in result.names])
+        number = old.parts(parameters.detail, parameters.n_parts).candidate_numbers
         candidates = old.decomposition.candidates
-        return _Former(np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates])
-    attribute = face_attribute.find(mesh)
+        return _Former(np.where(kept, old.shown, number)[candidates], old.pinned[candidates])
+    attribute = face_attribute.find(mesh)  # what is left is on the faces
     faces = np.zeros(len(mesh.polygons), np.int64)
     if attribute is not None and len(attribute.data) == len(faces):
         faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)

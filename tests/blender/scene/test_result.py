@@ -235,6 +235,38 @@ def test_numbers_of_parts_survive_a_coarser_run(obj, result):
     assert (numbers(obj.data) == fine).all()
 
 
+DETAILS = (0.3, 0.5, 0.7, 0.9)
+
+
+def numbers_at(result):
+    """The number of each face at some levels of detail."""
+    found = {}
+    for detail in DETAILS:
+        result.detail = detail
+        found[detail] = numbers(result.id_data).tolist()
+    return found
+
+
+@pytest.mark.parametrize("detail", DETAILS)
+def test_numbers_of_all_levels_survive_a_run_at_any_of_them(make, detail):
+    """Parts that had come with a drag of Detail got other numbers and colors when Decompose was pressed again."""
+    obj = make(shapes.insect())
+    bpy.ops.reeb_parts.decompose(detail=0.5)
+    before = numbers_at(obj.data.reeb_parts)
+    bpy.ops.reeb_parts.decompose(detail=detail)
+    assert numbers(obj.data).tolist() == before[detail]
+    assert numbers_at(obj.data.reeb_parts) == before
+
+
+def test_numbers_after_a_drag_survive_a_run_with_other_parameters(make):
+    obj = make(shapes.insect())
+    bpy.ops.reeb_parts.decompose(detail=0.5)
+    obj.data.reeb_parts.detail = 0.9
+    before = numbers(obj.data)
+    bpy.ops.reeb_parts.decompose(detail=0.9, smoothing=0)
+    assert (numbers(obj.data) == before).mean() > 0.9
+
+
 def test_saved_and_opened_again(obj, result, tmp_path):
     result.parts[1].name = "Arm"
     path = str(tmp_path / "tree.blend")
