@@ -32,11 +32,23 @@ def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
 def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The slider was moved: the modifier is there while there is something for it to do."""
     obj = made.id_data
+    _leave_copies(obj)
     if made.explode or (obj.animation_data and obj.animation_data.action):
         _ensure(obj)
     else:
         modifiers.remove_nodes(obj, OURS)
     graph_follow.soon(obj)  # what evaluates the object first may be a tool, of which no handler is told
+
+
+def _leave_copies(obj: bpy.types.Object) -> None:
+    """Let copies of an object, which came with its nodes, listen to their own sliders: they would follow that of it."""
+    modifier = find(obj)
+    if modifier is None or modifier.node_group.users < 2:
+        return
+    for other in bpy.data.objects:
+        copied = find(other) if other != obj and other.is_editable else None
+        if copied is not None and copied.node_group == modifier.node_group:
+            _ensure(other)
 
 
 def settle(obj: bpy.types.Object) -> None:

@@ -194,6 +194,20 @@ def test_a_copy_has_a_slider_of_its_own(obj):
     activate(obj)
 
 
+@pytest.mark.parametrize("amount", [0.0, 0.5])
+@pytest.mark.parametrize("linked", [False, True])
+def test_a_copy_stays_as_it_is_when_the_slider_of_its_original_moves(obj, linked, amount):
+    """It went together with the original, or apart, and its own slider said otherwise."""
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 1.0
+    bpy.ops.object.duplicate(linked=linked)
+    twin = bpy.context.object
+    obj.reeb_parts_made.explode = amount
+    assert shown(twin) == pytest.approx(expected(obj, 1.0), abs=1e-4)
+    assert shown(obj) == pytest.approx(expected(obj, amount), abs=1e-4)
+    activate(obj)
+
+
 def test_a_copy_that_takes_the_name_of_its_original_has_a_slider_of_its_own(obj):
     bpy.ops.reeb_parts.decompose()
     obj.reeb_parts_made.explode = 1.0
