@@ -126,14 +126,21 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
         return reactions.give_names(obj.data, names, given=True)
 
 
-class REEB_PARTS_OT_show_colors(PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_show_colors(ReportingOperator, bpy.types.Operator):
     """Show the parts' colors in this viewport: Solid, colored by attribute"""
 
     bl_idname = "reeb_parts.show_colors"
     bl_label = "Show Colors of Parts"
     bl_options = {"REGISTER"}
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+    @classmethod
+    def check_context(cls, context: bpy.types.Context) -> None:
+        if not store.has_parts(active_object(context)):  # nothing is written to them: they may be linked
+            super().check_context(context)
+
+    def run(self, context: bpy.types.Context) -> None:
+        obj = active_object(context)
+        assert obj is not None  # check_context has looked
         if not obj.data.reeb_parts.color_attribute:
             raise SceneError(rpt_("The parts have no colors. Switch these on under Advanced, Output; decompose again."))
         shading.turn_to_colors(context)

@@ -210,7 +210,7 @@ CASES = {
     "hulls": Case(),
     "rigid_bodies": Case(prepare=separated, active="piece", changes=("/data/collections", "/collections/RigidBody.*"),
                          refuses=LINKED),
-    "show_colors": Case(),
+    "show_colors": Case(refuses={}),
     "suggest_names": Case(),
     "show_graph": Case(changes=("/settings",)),
     "find_similar": Case(prepare=choose(1)),

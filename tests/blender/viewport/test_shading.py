@@ -5,6 +5,7 @@ import sys
 
 import bpy
 import pytest
+from snapshot import activate
 
 
 @pytest.fixture
@@ -41,3 +42,18 @@ def test_the_button_shows_the_colors(package, space, obj):
     bpy.ops.reeb_parts.decompose(colors=False)
     with pytest.raises(RuntimeError, match="no colors"):
         bpy.ops.reeb_parts.show_colors()
+
+
+def test_the_button_shows_the_colors_of_a_linked_model(package, space, obj, tmp_path):
+    """It was grey: the model cannot be written."""
+    bpy.ops.reeb_parts.decompose()
+    path, name = str(tmp_path / "library.blend"), obj.name
+    bpy.data.libraries.write(path, {obj})
+    bpy.data.objects.remove(obj)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = [name]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    activate(wanted.objects[0])
+    space.shading.type = "MATERIAL"
+    bpy.ops.reeb_parts.show_colors()
+    assert not sys.modules[f"{package}.ui.panel"].hides_parts(space, True, False)
