@@ -86,8 +86,11 @@ def drop_former_group(block: bpy.types.ID, name: str) -> None:
 
     Blender 5 copies it to where it keeps such groups, and leaves it among the custom properties of the user: there it
     doubles the file, and Blender 4.5 takes it for the group if there is no other, be that out of date or cleared.
+    A custom property of that name that has nothing of the group in it is the user's, and stays.
     """
-    if bpy.app.version >= (5, 0) and name in block:
+    former = block.get(name) if bpy.app.version >= (5, 0) else None
+    keys = getattr(former, "to_dict", dict)().keys()
+    if not keys.isdisjoint(getattr(block, name).bl_rna.properties.keys()):
         at_end(block.pop, name, None)
 
 

@@ -86,3 +86,15 @@ def test_nothing_is_left_of_what_blender_4_had_stored(marked, button):
     elif bpy.app.version >= (5, 0):
         assert "reeb_parts" not in tree.data
         assert tree.data.reeb_parts.parts
+
+
+@pytest.mark.parametrize("value", ["seen by the pipeline", 1, {"version": 2}])
+def test_a_property_of_the_user_of_that_name_stays(obj, value):
+    """A script's mark on the mesh was taken for what Blender 4 leaves there, and removed."""
+    if bpy.app.version < (5, 0):  # property groups are custom properties there, and this would write over one
+        return
+    obj.data["reeb_parts"] = value
+    for button in (bpy.ops.reeb_parts.decompose, bpy.ops.reeb_parts.clear):
+        assert button() == {"FINISHED"}
+        left = obj.data["reeb_parts"]
+        assert (left.to_dict() if isinstance(value, dict) else left) == value
