@@ -76,7 +76,7 @@ def report(
     name : str
         Name of the object or file.
     numbers : (count,) iterable of int, optional
-        Number of each part; 1, 2 ... without.
+        Number of each part, 1 or more; 1, 2 ... without.
     names : (count,) iterable of str, optional
         Name of each part; ``parts.names`` without.
     colors : (count, 3) array_like of float, optional
@@ -102,6 +102,8 @@ def report(
     _check_result(decomposition, parts)
     numbers, names = _numbers_and_names(parts, numbers, names)
     colors = part_colors(parts.count, parts.cuts) if colors is None else _checked("colors", colors, (parts.count, 3))
+    if ((colors < 0) | (colors > 1)).any():
+        raise ParameterError(Sentence("Colors must be from 0 to 1."), "colors")
     boxes = None if boxes is None else _checked("boxes", boxes, (parts.count, 2, 3))
     transform = np.eye(4) if transform is None else _checked("transform", transform, (4, 4))
     result = {
@@ -143,9 +145,10 @@ def _numbers_and_names(
         if len(values) != parts.count:
             raise ParameterError(Sentence("There are {n} values for {total} elements: each needs one.",
                                           n=len(values), total=parts.count), given)
-    if whole_numbers(numbers) is None:
+    whole = whole_numbers(numbers)
+    if whole is None or (whole < 1).any():
         raise ParameterError(
-            Sentence("Numbers must be {n} whole numbers, one for each part.", n=parts.count), "numbers")
+            Sentence("Numbers must be {n} whole numbers from 1, one for each part.", n=parts.count), "numbers")
     return numbers, names
 
 

@@ -863,8 +863,9 @@ TEXTS = {
         "Kennzahlen müssen {n} ganze Zahlen ab 0 sein, eine für jede Fläche.",
     "Groups must be {n} whole numbers, one for each candidate.":
         "Gruppen müssen {n} ganze Zahlen sein, eine für jeden Kandidaten.",
-    "Numbers must be {n} whole numbers, one for each part.":
-        "Nummern müssen {n} ganze Zahlen sein, eine für jedes Teil.",
+    "Numbers must be {n} whole numbers from 1, one for each part.":
+        "Nummern müssen {n} ganze Zahlen ab 1 sein, eine für jedes Teil.",
+    "Colors must be from 0 to 1.": "Farben müssen von 0 bis 1 sein.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "Polygonnummern müssen {n} ganze Zahlen ab 0 sein, eine je Dreieck.",
     "{name} must be one of {choices}, not {value}.": "{name} muss eines von {choices} sein, nicht {value}.",

@@ -775,7 +775,8 @@ TEXTS = {
     "Face indices must be whole numbers, not {type}.": "面的编号必须为整数，而不是 {type}。",
     "Labels must be {n} whole numbers from 0, one for each face.": "标签必须为 {n} 个从 0 开始的整数，每个面一个。",
     "Groups must be {n} whole numbers, one for each candidate.": "分组必须为 {n} 个整数，每个候选部件一个。",
-    "Numbers must be {n} whole numbers, one for each part.": "编号必须为 {n} 个整数，每个部件一个。",
+    "Numbers must be {n} whole numbers from 1, one for each part.": "编号必须为 {n} 个从 1 开始的整数，每个部件一个。",
+    "Colors must be from 0 to 1.": "颜色必须在 0 到 1 之间。",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "多边形编号必须是从 0 开始的 {n} 个整数，每个三角形一个。",
     "{name} must be one of {choices}, not {value}.": "{name} 必须是 {choices} 之一，而不是 {value}。",

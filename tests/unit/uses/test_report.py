@@ -113,12 +113,20 @@ def test_what_is_not_one_for_each_part_is_refused(result, name, value):
     assert caught.value.name in (name, *more)
 
 
-@pytest.mark.parametrize("number", ["a", 1.5])
-def test_numbers_of_parts_are_whole(result, number):
-    """A ValueError, and a part of number 1."""
+@pytest.mark.parametrize("number", ["a", 1.5, 0, -1])
+def test_numbers_of_parts_are_whole_and_begin_at_1(result, number):
+    """A ValueError, a part of number 1, and a report that its schema does not allow."""
     with pytest.raises(ParameterError, match="one for each part") as caught:
         report(result, numbers=[number] * result.parts().count)
     assert caught.value.name == "numbers"
+
+
+@pytest.mark.parametrize("color", [(255, 0, 0), (-0.1, 0, 0)])
+def test_colors_are_from_0_to_1(result, color):
+    """Those of images, to 255, gave a report that its schema does not allow."""
+    with pytest.raises(ParameterError, match="from 0 to 1") as caught:
+        report(result, colors=[color] * result.parts().count)
+    assert caught.value.name == "colors"
 
 
 def test_parts_of_another_result_are_refused(result):
