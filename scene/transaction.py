@@ -90,7 +90,8 @@ def drop_former_group(block: bpy.types.ID, name: str) -> None:
     """
     former = block.get(name) if bpy.app.version >= (5, 0) else None
     keys = getattr(former, "to_dict", dict)().keys()
-    if not keys.isdisjoint(getattr(block, name).bl_rna.properties.keys()):
+    group = block.bl_rna.properties[name].fixed_type  # to read the group itself would set it
+    if not keys.isdisjoint(group.properties.keys()):
         at_end(block.pop, name, None)
 
 
