@@ -147,13 +147,13 @@ def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: floa
         others = along[begin:end]
         there = position[others]
         others = others[((there >= low) & (there <= high)).all(axis=1) & (label[others] != label[mine[0]])]
-        search, count = cKDTree(position[mine]), 2
-        while len(others) and count <= EQUALLY_NEAR:
+        search = cKDTree(position[mine])
+        for count in (2, EQUALLY_NEAR):  # most have no second that is as near as the first
             distance, nearest = search.query(  # up to and with the radius
                 position[others], k=count, distance_upper_bound=np.nextafter(radius, np.inf))
             other, rank = np.nonzero(np.isfinite(distance) & (distance <= (1 + TIE) * distance[:, :1]))
             found.append(np.stack([others[other], mine[nearest[other, rank]]], axis=1))
-            others, count = others[other[rank == count - 1]], 4 * count
+            others = others[other[rank == count - 1]]
     return np.concatenate(found)
 
 

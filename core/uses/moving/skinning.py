@@ -12,6 +12,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
+from ...arrays.indexing import bounds_of_each
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
 from ...arrays.vectors import across, lengths
 from ...mesh.corners import CornerTable
@@ -343,15 +344,14 @@ def turned_over(
     -------
     turned : (p,) bool
     """
-    turned, low, high = np.zeros(table.n_faces, bool), np.full(table.n_faces, np.inf), np.zeros(table.n_faces)
+    turned = np.zeros(table.n_faces, bool)
     changing = share[table.edges[:, 0]] != share[table.edges[:, 1]]
     if not changing.any():  # most bones move most of a surface not at all, or as a whole
         return turned
     near = np.zeros(table.n_faces, bool)
     near[table.corner_face[changing[table.corner_edge]]] = True
     table = table.within(near)
-    np.minimum.at(low, table.corner_face, share[table.corner_vertex])
-    np.maximum.at(high, table.corner_face, share[table.corner_vertex])
+    low, high = bounds_of_each(table.corner_face, share[table.corner_vertex], table.n_faces)
     some = _of_area(table.within(high - low > 1e-6))
     size = np.bincount(some.corner_face, minlength=table.n_faces)
     faces = np.flatnonzero(size)
