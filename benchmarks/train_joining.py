@@ -236,7 +236,7 @@ def error(subject: Subject, model: JoinModel) -> tuple[float, int]:
         hierarchy = body.parts.hierarchy
         if body.n_pieces > 1:
             hierarchy, _ = join_parts(body.parts, model)
-        part = hierarchy.parts(hierarchy.n_parts(0.5))[body.face_candidate]
+        part = hierarchy.parts_at(0.5)[body.face_candidate]
         of_face = majority(body.polygon, part, body.face_area + 1e-300, len(labels))
         labels = np.where(of_face >= 0, first + of_face, labels)
         first += int(part.max()) + 1

@@ -34,7 +34,7 @@ class FaceCandidates:
 
     def parts(self, detail: float) -> np.ndarray:
         """Part of each face, (p,) int64, at a level of detail, 0 to 1."""
-        return self.hierarchy.parts(self.hierarchy.n_parts(detail))[self.label]
+        return self.hierarchy.parts_at(detail)[self.label]
 
     def touching_graph(self) -> FaceGraph:
         """All faces that touch: the graph with the contacts, along no length, as pairs."""

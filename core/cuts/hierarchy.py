@@ -219,6 +219,10 @@ class Hierarchy:
         done = self.merges[: max(self.n_candidates - n_parts, 0)]
         return components(self.n_candidates, *done.T)[1]
 
+    def parts_at(self, detail: float) -> np.ndarray:
+        """Merge candidates to the parts at a level of detail: part of each candidate, (n_candidates,) int64, from 0."""
+        return self.parts(self.n_parts(detail))
+
     def coarsest(self, n_parts: int) -> tuple[np.ndarray, Hierarchy]:
         """Merge candidates to a number of parts, and these in the order that follows.
 

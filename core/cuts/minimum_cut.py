@@ -134,7 +134,7 @@ def move_cuts(
     a, b = both_ways(movable.mesh.edges.pairs).T
     coarser = None
     for detail in details:
-        part = hierarchy.parts(hierarchy.n_parts(detail))[label]
+        part = hierarchy.parts_at(detail)[label]
         moved = minimum_cuts(movable, part, coarser)
         before, label = label, np.where(moved == part, label, -1)
         together = moved[a] == moved[b]

@@ -38,7 +38,7 @@ def without_slivers(candidates: FaceCandidates) -> FaceCandidates:
     present, place = renumbered(candidates.label)
     touching, length = graph.boundaries(place)
     touching, length = touching[length > 0], length[length > 0]
-    part = hierarchy.parts(hierarchy.n_parts(0.5))[present]
+    part = hierarchy.parts_at(0.5)[present]
     together = touching[part[touching[:, 0]] == part[touching[:, 1]]]
     region = components(len(present), *together.T)[1]
     sliver = _are_slivers(np.bincount(place, graph.area), part, region, components(len(present), *touching.T)[1])

@@ -40,7 +40,7 @@ def berretti_candidates(
     """
     regions = berretti_regions(sets, topology, parameters.small_region)
     curvature = k_min(sets.mesh)
-    kept = regions.hierarchy.parts(regions.hierarchy.n_parts(1.0 - SALIENCE_OF_SMALL))
+    kept = regions.hierarchy.parts_at(1.0 - SALIENCE_OF_SMALL)
     piece_part = kept[regions.piece_region]
     moved = search_boundaries(sets, topology, curvature, piece_part, parameters.concavity_weight,
                               parameters.sigma)

@@ -117,7 +117,7 @@ def fine_parts(
     parts : FineParts
     """
     fine, within = (FINE, WITHIN) if learned else (FINE_MEASURED, 0.0)
-    present, part = renumbered(hierarchy.parts(hierarchy.n_parts(1.0 - fine))[label])
+    present, part = renumbered(hierarchy.parts_at(1.0 - fine)[label])
     candidate = np.zeros(len(present), np.int64)
     candidate[part] = label
     pairs = part_pairs(mesh, part, lambda a, b: hierarchy.salience_between(candidate[a], candidate[b]), agd)

@@ -304,7 +304,7 @@ def _refined(
     most, and only faces near them are looked at.
     """
     found = _prolong_labels(mesh, step, label)
-    part = hierarchy.parts(hierarchy.n_parts(0.5))[label]
+    part = hierarchy.parts_at(0.5)[label]
     zone = _near_cuts(step.mesh, part)[step.owner][mesh.faces].any(axis=1)
     if not zone.any():
         return found

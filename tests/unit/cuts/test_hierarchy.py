@@ -111,8 +111,8 @@ def test_join_keeps_parts_apart_and_merges_the_weakest_first():
     for detail in np.linspace(0, 1, 11):
         assert joined.n_parts(detail) == sum(h.n_parts(detail) for h in parts)
         expected = np.concatenate([
-            100 * i + h.parts(h.n_parts(detail)) for i, h in enumerate(parts)])
-        got = joined.parts(joined.n_parts(detail))
+            100 * i + h.parts_at(detail) for i, h in enumerate(parts)])
+        got = joined.parts_at(detail)
         assert len(np.unique(got * 1000 + expected)) == len(np.unique(got)) == len(np.unique(expected))
 
 

@@ -109,8 +109,8 @@ def test_members_that_are_one_with_something_else_stay_with_it():
     # The first three small pieces are one part with half of the large one, and the last two with each other.
     first = [(1, 2), (2, 3), (3, 4), (4, 5), (11, 12), (0, 1)]
     found = joined([*first, *CHAIN[3:]], [0.1, 0.1, 0.2, 0.2, 0.3, 0.8, *np.full(7, LAST)])
-    assert found.hierarchy.parts(found.hierarchy.n_parts(0.5)).tolist() == [0, *[1] * 5, *[2] * 7]
-    assert found.hierarchy.parts(found.hierarchy.n_parts(0.65)).tolist() == [0, *[1] * 5, 2, 3, 4, 5, 6, 7, 7]
+    assert found.hierarchy.parts_at(0.5).tolist() == [0, *[1] * 5, *[2] * 7]
+    assert found.hierarchy.parts_at(0.65).tolist() == [0, *[1] * 5, 2, 3, 4, 5, 6, 7, 7]
 
 
 def test_nothing_changes_where_none_stands_alone():

@@ -283,7 +283,7 @@ def test_what_is_not_fixed_is_parted_as_the_hierarchy_has_it_in_connected_pieces
     numbering = Numbering.of(result, fine, fixed)
     for count in range(result.hierarchy.n_loose, result.n_candidates + 1, 5):
         detail = 1.0 - result.hierarchy.salience[result.n_candidates - count - 1] if count < result.n_candidates else 1
-        level = result.hierarchy.parts(result.hierarchy.n_parts(detail))
+        level = result.hierarchy.parts_at(detail)
         a, b = result.candidate_pairs.T
         joined = (level[a] == level[b]) & (fixed[a] == 0) & (fixed[b] == 0)
         wanted = components(result.n_candidates, a[joined], b[joined])[1]

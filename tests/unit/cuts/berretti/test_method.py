@@ -54,7 +54,7 @@ def test_a_candidate_is_made_of_whole_pieces(made):
 
 def test_parts_of_the_papers_decision_are_connected(made):
     sets, _, element, hierarchy = made
-    part = hierarchy.parts(hierarchy.n_parts(0.5))[element]
+    part = hierarchy.parts_at(0.5)[element]
     piece = np.empty(sets.n_pieces, np.int64)
     piece[sets.element_piece] = part
     same = piece[sets.contour_pieces[:, 0]] == piece[sets.contour_pieces[:, 1]]
@@ -86,7 +86,7 @@ def test_concavity_pulls_cuts_into_creases():
         found = berretti_candidates(sets, topology, Parameters.preset("Berretti 2009", concavity_weight=alpha))
         element, hierarchy = found.element_candidate, found.hierarchy
         piece = np.empty(sets.n_pieces, np.int64)
-        piece[sets.element_piece] = hierarchy.parts(hierarchy.n_parts(0.5))[element]
+        piece[sets.element_piece] = hierarchy.parts_at(0.5)[element]
         lower, upper = piece[sets.contour_pieces].T
         return np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
 

@@ -121,7 +121,7 @@ def test_the_decision_is_the_papers_threshold():
         sets = along(shapes.tube_tree(), (0.3, 1, 0.2))
         topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
         regions = berretti_regions(sets, topology, threshold)
-        kept = regions.hierarchy.parts(regions.hierarchy.n_parts(0.5))[regions.piece_region]
+        kept = regions.hierarchy.parts_at(0.5)[regions.piece_region]
         area = np.bincount(kept, sets.piece_area)
         assert area.min() >= threshold * area.max() or len(area) == 1
 

@@ -82,7 +82,7 @@ def test_with_a_band_faces_beside_the_cuts_move_and_nothing_else(tree):
     moved = np.empty(mesh.n_faces, np.int64)
     moved[sets.element_face] = element
     np.testing.assert_array_equal(element, moved[sets.element_face])  # faces move as a whole
-    before, after = (hierarchy.parts(hierarchy.n_parts(0.75))[label] for label in (patches, moved))
+    before, after = (hierarchy.parts_at(0.75)[label] for label in (patches, moved))
     a, b = mesh.edges.pairs.T
     beside = np.unique(mesh.edges.pairs[before[a] != before[b]])
     away = np.linalg.norm(mesh.face_centroids[:, None] - mesh.face_centroids[beside], axis=2).min(axis=1)
