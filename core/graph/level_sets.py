@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import expanded, sums_by
 from ..arrays.vectors import lengths
-from ..mesh.triangles import LEAST_WEIGHT, TriMesh
+from ..mesh.triangles import TriMesh, vote_weights
 from .bridged_levels import FaceBridges, joined_by_faces
 
 
@@ -118,7 +118,7 @@ class LevelSets:
     @property
     def element_weight(self) -> np.ndarray:
         """(E,) float64, weight of the vote of each element: its area; elements without one vote after all others."""
-        return self.element_area + LEAST_WEIGHT * self.mesh.area
+        return vote_weights(self.element_area, self.mesh.area)
 
     @cached_property
     def piece_area(self) -> np.ndarray:

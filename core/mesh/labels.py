@@ -12,15 +12,10 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, inverse, last_of_each, place_among, sums_by
 from ..arrays.pairs import both_ways, distinct_pairs
-from .triangles import LEAST_WEIGHT, TriMesh
+from .triangles import TriMesh, vote_weights
 
 #: What it costs faces to change label: called with faces, their labels and the new labels.
 Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-
-
-def vote_weights(area: np.ndarray) -> np.ndarray:
-    """Weights of votes by area, (n,) float64: what has none votes after all others. area : (n,) float64."""
-    return area + LEAST_WEIGHT * area.sum()
 
 
 def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:

@@ -48,12 +48,40 @@ def check_corners(triangles: np.ndarray, n_vertices: int, polygon: np.ndarray | 
     )
 
 
+def vote_weights(area: np.ndarray, whole: float | None = None) -> np.ndarray:
+    """Weights of votes by area, (n,) float64: what has none votes after all others.
+
+    area : (n,) float64. whole : area of the mesh, in the same unit; the sum of the areas if not given.
+    """
+    return area + LEAST_WEIGHT * (area.sum() if whole is None else whole)
+
+
 def next_side(side: np.ndarray) -> np.ndarray:
     """The side that follows each one in its face; sides, and the corners where they begin, are 3 times the face + 0..2.
 
     side : int64 of any shape. Returns int64 of this shape.
     """
     return side - side % 3 + (side + 1) % 3
+
+
+def corner_sides(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The two sides that meet at each corner of some triangles, and the ends of the side that faces it.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (t, 3) int64
+
+    Returns
+    -------
+    ends : (3t, 2) int64
+        Of the side that faces each corner: the next corner of the triangle, and the one before.
+    to_next, to_last : (3t, 3) float64
+        From each corner to these, in the unit of the points.
+    """
+    ends = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2).reshape(-1, 2)
+    corner = taken(points, triangles.ravel())
+    return ends, taken(points, ends[:, 0]) - corner, taken(points, ends[:, 1]) - corner
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +189,7 @@ class TriMesh:
     @property
     def face_weight(self) -> np.ndarray:
         """(m,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
-        return self.face_area + LEAST_WEIGHT * self.area
+        return vote_weights(self.face_area, self.area)
 
     @cached_property
     def face_normals(self) -> np.ndarray:

@@ -10,8 +10,9 @@ import numpy as np
 
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.settling import settle
-from ..mesh.labels import connect, majority, vote_weights
+from ..mesh.labels import connect, majority
 from ..mesh.polygons import PolygonMesh
+from ..mesh.triangles import vote_weights
 from ..sentence import Sentence
 from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..arrays.indexing import sums_by
 from ..arrays.pairs import distinct_pairs
-from ..mesh.labels import majority, vote_weights
+from ..mesh.labels import majority
+from ..mesh.triangles import vote_weights
 from .junctions import counted_again
 
 if TYPE_CHECKING:

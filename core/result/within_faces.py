@@ -17,7 +17,7 @@ from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
 from ..cuts.symmetric.regions import symmetric_on_regions
 from ..mesh.labels import FaceGraph, connect
-from ..mesh.triangles import LEAST_WEIGHT, TriMesh
+from ..mesh.triangles import TriMesh, vote_weights
 from ..symmetry.images import Images
 from ..symmetry.mirrors import Mirror
 from .component_results import ComponentResult, FoundCandidates, firsts, merged_at_last
@@ -52,7 +52,8 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     hierarchy = Hierarchy.join([part.hierarchy for part in parts])
     polygon = np.concatenate([r.component.polygon for r in results])
     area = np.concatenate([r.component.mesh.face_area for r in results])
-    return FoundCandidates(polygon, label, area + LEAST_WEIGHT * sum(r.component.mesh.area for r in results), hierarchy)
+    whole = sum(r.component.mesh.area for r in results)
+    return FoundCandidates(polygon, label, vote_weights(area, whole), hierarchy)
 
 
 def _symmetric(results: list[ComponentResult], planes: list[Images]) -> FaceCandidates:

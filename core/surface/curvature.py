@@ -8,8 +8,8 @@ from scipy.sparse import csr_array, diags_array
 
 from ..arrays.indexing import sums_by, taken
 from ..arrays.pairs import symmetric_matrix
-from ..arrays.vectors import second_moments_of_each, unit
-from ..mesh.triangles import TriMesh
+from ..arrays.vectors import cross, lengths, row_products, second_moments_of_each, unit
+from ..mesh.triangles import TriMesh, corner_sides
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
 MAX_CURVATURE = 60.0  # bound of ``curvature_across``, in units of 1 / sqrt(area)
@@ -180,10 +180,8 @@ def angle_defect(mesh: TriMesh) -> np.ndarray:
     defect : (m,) float64
         In radians. On a closed surface the sum is 2 pi times the Euler characteristic (Gauss-Bonnet).
     """
-    side = np.roll(mesh.corners, -1, axis=1) - mesh.corners
-    back = -np.roll(side, 1, axis=1)
-    sine = np.linalg.norm(np.cross(side, back), axis=2)
-    angle = np.arctan2(sine, (side * back).sum(axis=2))
+    _, u, v = corner_sides(mesh.vertices, mesh.faces)
+    angle = np.arctan2(lengths(cross(u, v)), row_products(u, v)).reshape(-1, 3)
     total = np.bincount(mesh.faces.ravel(), angle.ravel(), mesh.n_vertices)
     border = np.zeros(mesh.n_vertices, bool)
     border[mesh.edges.vertices[mesh.edges.n_faces == 1]] = True

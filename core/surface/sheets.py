@@ -18,9 +18,9 @@ from scipy.sparse.linalg import splu, spsolve
 from ..arrays.indexing import spread_evenly, sums_by
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.pairs import symmetric_matrix
-from ..arrays.vectors import cross, unit
+from ..arrays.vectors import cross, row_products, unit
 from ..mesh.labels import majority
-from ..mesh.triangles import TriMesh
+from ..mesh.triangles import TriMesh, corner_sides
 from .balls import ball_radius
 from .preparation import split_edges
 from .winding import MOST_OF_SHEETS, winding_numbers
@@ -185,12 +185,10 @@ def _border(mesh: TriMesh) -> np.ndarray:
 
 def _stiffness(mesh: TriMesh, thin: np.ndarray) -> tuple[csr_array, np.ndarray]:
     """Minus the Laplacian of the faces ``thin``, (n, n), by cotangents [Pinkall1993], and the area at each vertex."""
-    corners, faces = mesh.corners[thin], mesh.faces[thin]
-    side = np.roll(corners, -1, axis=1) - corners  # from each corner to the next
-    back = -np.roll(side, 1, axis=1)
-    cotangent = (side * back).sum(axis=2) / (2 * mesh.face_area[thin])[:, None]  # at each corner
-    opposite = np.stack([np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)], axis=2)
-    weights = symmetric_matrix(opposite.reshape(-1, 2), 0.5 * cotangent.ravel(), mesh.n_vertices)
+    faces = mesh.faces[thin]
+    ends, u, v = corner_sides(mesh.vertices, faces)
+    cotangent = row_products(u, v) / np.repeat(2 * mesh.face_area[thin], 3)
+    weights = symmetric_matrix(ends, 0.5 * cotangent, mesh.n_vertices)
     area = np.bincount(faces.ravel(), np.repeat(mesh.face_area[thin] / 3, 3), mesh.n_vertices)
     return diags_array(weights.sum(axis=1)).tocsr() - weights, area
 

@@ -10,7 +10,8 @@ import numpy as np
 from ...cuts.hierarchy import Hierarchy
 from ...graph.critical import SADDLE
 from ...mesh.corners import CornerTable
-from ...mesh.labels import FaceGraph, majority, vote_weights
+from ...mesh.labels import FaceGraph, majority
+from ...mesh.triangles import vote_weights
 from ..decomposition import Decomposition
 from ..junctions import boundaries, junctions
 from .contour_cut import contours

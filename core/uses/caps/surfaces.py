@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...arrays.indexing import sums_by
-from ...arrays.vectors import across, cross, lengths
+from ...arrays.pairs import symmetric_matrix
+from ...arrays.vectors import across, cross, lengths, row_products
+from ...mesh.triangles import corner_sides
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -110,21 +112,12 @@ def harmonic_weights(points: np.ndarray, triangles: np.ndarray) -> csr_array:
 
     points : (n, 2) or (n, 3) float64. triangles : (t, 3) int64. Returns a symmetric (n, n) matrix.
     """
-    from scipy.sparse import coo_array
-
     if points.shape[1] == 2:
         points = np.column_stack([points, np.zeros(len(points))])
-    rows, columns, weights = [], [], []
-    for i in range(3):
-        apex, p, q = (triangles[:, (i + j) % 3] for j in range(3))
-        u, v = points[p] - points[apex], points[q] - points[apex]
-        least = 1e-12 * lengths(u) * lengths(v)
-        cotangent = (u * v).sum(axis=1) / np.maximum(lengths(cross(u, v)), np.maximum(least, 1e-300))
-        rows += [p, q]
-        columns += [q, p]
-        weights += [cotangent, cotangent]
-    n = len(points)
-    return coo_array((np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))), shape=(n, n)).tocsr()
+    ends, u, v = corner_sides(points, triangles)
+    least = 1e-12 * lengths(u) * lengths(v)
+    cotangent = row_products(u, v) / np.maximum(lengths(cross(u, v)), np.maximum(least, 1e-300))
+    return symmetric_matrix(ends, cotangent, len(points))
 
 
 def spread(weights: csr_array, values: np.ndarray, fixed: np.ndarray | None = None) -> np.ndarray:

@@ -9,8 +9,9 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
 from ...arrays.indexing import last_of_each, sums_by
-from ...arrays.pairs import distinct_pairs
-from ...arrays.vectors import cross, lengths
+from ...arrays.pairs import distinct_pairs, symmetric_matrix
+from ...arrays.vectors import cross, lengths, row_products
+from ...mesh.triangles import corner_sides
 from ...steps import Steps
 from .band import Band
 from .pins import Pins
@@ -116,17 +117,11 @@ def _rows_to_one(matrix: csr_array) -> csr_array:
 
 def _walk(band: Band, triangles: np.ndarray) -> csr_array:
     """One step of diffusion, (v, v): to neighbors by the cotangents of the angles that face the edges."""
-    rows, columns, weights = [], [], []
-    for i in range(3):
-        apex, p, q = (triangles[:, (i + k) % 3] for k in range(3))
-        u, v = band.table.vertices[p] - band.table.vertices[apex], band.table.vertices[q] - band.table.vertices[apex]
-        across = lengths(cross(u, v))
-        cotangent = np.divide((u * v).sum(axis=1), across, out=np.zeros(len(u)), where=across > 0).clip(-10, 10)
-        rows += [p, q]
-        columns += [q, p]
-        weights += [cotangent, cotangent]
+    ends, u, v = corner_sides(band.table.vertices, triangles)
+    across = lengths(cross(u, v))
+    cotangent = np.divide(row_products(u, v), across, out=np.zeros(len(u)), where=across > 0).clip(-10, 10)
     n = len(band.vertices)
-    matrix = coo_array((np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))), shape=(n, n)).tocsr()
+    matrix = symmetric_matrix(ends, cotangent, n)
     # Where angles are obtuse a weight could be negative, and shares would not stay between 0 and 1.
     matrix.data = np.maximum(matrix.data, 0.05)
     return (0.5 * eye_array(n) + 0.5 * _rows_to_one(matrix)).tocsr()

@@ -11,7 +11,9 @@ from scipy.sparse.linalg import splu
 
 from ...arrays.indexing import sums_by
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
+from ...arrays.vectors import cross, lengths, row_products
 from ...mesh.corners import CornerTable
+from ...mesh.triangles import corner_sides
 
 # Cotangents of the angles of needles and the sum at an edge are kept within these, so that none outweighs all others
 # and the matrix stays positive definite.
@@ -36,20 +38,17 @@ class ConformalFactor:
     @classmethod
     def of(cls, table: CornerTable) -> ConformalFactor:
         """Make the matrix. table : CornerTable of n vertices. Returns a ConformalFactor."""
-        points, n = table.vertices, len(table.vertices)
-        ends, weight, angle = [], [], np.zeros(n)
-        triangles, _ = table.fans()
-        for a, b, c in (np.roll(triangles, -k, axis=1).T for k in range(3)):
-            x, y = points[b] - points[a], points[c] - points[a]
-            sine, cosine = np.linalg.norm(np.cross(x, y), axis=1), (x * y).sum(axis=1)
-            angle += np.bincount(a, np.arctan2(sine, cosine), n)
-            longest = np.maximum((x * x).sum(axis=1), (y * y).sum(axis=1))
-            cotangent = cosine / np.maximum(sine, 1e-12 * np.maximum(longest, np.finfo(float).tiny))
-            ends.append(np.sort(np.stack([b, c], axis=1), axis=1))
-            weight.append(0.5 * cotangent.clip(-_STEEPEST, _STEEPEST))
-        pairs, which = distinct_pairs(*np.concatenate(ends).reshape(-1, 2).T)
-        weights = symmetric_matrix(
-            pairs, np.maximum(sums_by(which, np.concatenate(weight), len(pairs)), _WEAKEST), n)
+        n, (triangles, _) = len(table.vertices), table.fans()
+        ends, u, v = corner_sides(table.vertices, triangles)
+        sine, cosine = lengths(cross(u, v)), row_products(u, v)
+        angle = np.zeros(n)
+        for corner, turn in zip(triangles.T, np.arctan2(sine, cosine).reshape(-1, 3).T, strict=True):
+            angle += np.bincount(corner, turn, n)
+        longest = np.maximum(row_products(u, u), row_products(v, v))
+        cotangent = cosine / np.maximum(sine, 1e-12 * np.maximum(longest, np.finfo(float).tiny))
+        pairs, which = distinct_pairs(*np.sort(ends, axis=1).T)
+        weight = sums_by(which, 0.5 * cotangent.clip(-_STEEPEST, _STEEPEST), len(pairs))
+        weights = symmetric_matrix(pairs, np.maximum(weight, _WEAKEST), n)
         return cls(diags_array(weights.sum(axis=1)).tocsr() - weights, 2 * np.pi - angle)
 
     def solve(self, free: np.ndarray) -> np.ndarray:
