@@ -9,7 +9,7 @@ from core.arrays.components import components
 from core.arrays.ties import first_largest
 from core.errors import EmptyMeshError, MeshError
 from core.mesh.polygons import PolygonMesh
-from core.mesh.triangles import EdgeTable, TriMesh
+from core.mesh.triangles import EdgeTable, TriMesh, corner_sides
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 2), "octahedron": (shapes.octahedron, 2),
@@ -28,6 +28,14 @@ def test_closed_shapes_are_what_the_other_tests_take_them_for(name):
     assert (mesh.edges.n_faces == 2).all()
     assert 3 * mesh.n_faces == 2 * len(mesh.edges.vertices)
     assert np.einsum("ij,ij->", mesh.area_normals, mesh.face_centroids) > 0  # turned outwards
+
+
+def test_sides_at_the_corners_of_a_triangle_by_hand():
+    points = np.array([[9.0, 9, 9], [0, 0, 0], [3, 0, 0], [0, 4, 0]])
+    ends, to_next, to_last = corner_sides(points, np.array([[1, 2, 3]]))
+    assert ends.tolist() == [[2, 3], [3, 1], [1, 2]]
+    assert to_next.tolist() == [[3, 0, 0], [-3, 4, 0], [0, -4, 0]]
+    assert to_last.tolist() == [[0, 4, 0], [-3, 0, 0], [3, -4, 0]]
 
 
 def test_arrays_are_copied_and_read_only():

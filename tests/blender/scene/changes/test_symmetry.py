@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from results import numbers as face_numbers
 
 SPOT = Path(__file__).resolve().parents[4] / "models" / "spot.obj"
 
@@ -17,10 +18,6 @@ def mesh(make):
     obj = make(shapes.mirrored_figure(), "Figure")
     bpy.ops.reeb_parts.decompose()
     return obj.data
-
-
-def face_numbers(mesh):
-    return np.array([value.value for value in mesh.attributes["reeb_part"].data])
 
 
 def image(mesh):

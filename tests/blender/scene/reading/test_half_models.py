@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Matrix
+from results import numbers as face_numbers
 
 
 @pytest.fixture
@@ -32,10 +33,6 @@ def mirrored(make, half):
     obj = make(half, "Figure")
     obj.modifiers.new("Mirror", "MIRROR")
     return obj
-
-
-def face_numbers(mesh):
-    return np.array([value.value for value in mesh.attributes["reeb_part"].data])
 
 
 def seen_sides(obj, plane, stretch):

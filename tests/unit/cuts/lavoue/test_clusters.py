@@ -3,12 +3,9 @@
 
 import numpy as np
 import pytest
+from results import same_partition
 
 from core.cuts.lavoue.clusters import EXPLAINED, MOST_CLUSTERS, cluster
-
-
-def same_up_to_names(a, b):
-    return len(np.unique(np.stack([a, b], axis=1), axis=0)) == len(np.unique(a)) == len(np.unique(b))
 
 
 def clouds(rng, centers, size=40):
@@ -21,14 +18,14 @@ def test_four_points_in_two_classes_by_hand():
     points = np.array([(0.0, 0), (1, 0), (10, 0), (12, 0)])
     assert cluster(points, np.ones(4), 2).tolist() in ([0, 0, 1, 1], [1, 1, 0, 0])
     # A point that outweighs all others has the mean beside it, and the longest axis parts it from them.
-    assert same_up_to_names(cluster(points[1:], np.array([1.0, 1, 1000]), 2), np.array([0, 1, 1]))
+    assert same_partition(cluster(points[1:], np.array([1.0, 1, 1000]), 2), np.array([0, 1, 1]))
 
 
 @pytest.mark.parametrize("centers", [[(0, 0), (9, 0)], [(0, 0), (9, 0), (0, 9)], [(-8, 0), (0, 0), (8, 1), (0, 9)]])
 def test_as_many_classes_as_the_data_have(centers):
     points, cloud = clouds(np.random.default_rng(0), centers)
-    assert same_up_to_names(cluster(points, np.ones(len(points))), cloud)
-    assert same_up_to_names(cluster(points, np.ones(len(points)), len(centers)), cloud)
+    assert same_partition(cluster(points, np.ones(len(points))), cloud)
+    assert same_partition(cluster(points, np.ones(len(points)), len(centers)), cloud)
 
 
 def test_what_differs_by_error_only_is_one_class():
@@ -52,7 +49,7 @@ def test_order_does_not_matter():
     rng = np.random.default_rng(2)
     points, weight, order = 4 * rng.normal(size=(500, 2)), rng.random(500) + 0.1, rng.permutation(500)
     for count in (0, 1, 5):
-        assert same_up_to_names(cluster(points, weight, count)[order], cluster(points[order], weight[order], count))
+        assert same_partition(cluster(points, weight, count)[order], cluster(points[order], weight[order], count))
 
 
 def test_no_more_classes_than_distinct_points():
