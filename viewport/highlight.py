@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..core.uses.clean_cuts.curves import Curves
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
-WIDTH = 2.5
+WIDTH = 2.5  # of lines, in pixels, as the next one
 CUTS_COLOR, CUTS_WIDTH = (1.0, 1.0, 1.0, 0.6), 1.5
 
 FILL = (1.0, 1.0, 1.0, 0.15)  # of loose pieces, which border on nothing

@@ -36,7 +36,7 @@ _TIP = 0.9
 BENT = np.pi / 3
 #: How many bones may move a vertex; what game engines take.
 MOST_BONES = 4
-_LITTLE = 1e-9
+_LITTLE = 1e-9  # share of a weight that stays at least when the fifth is taken from it, so that none of the four is 0
 _NEEDLE = 0.5e-6  # area of a needle over the square of its length
 _STEPS = 1024  # weights are multiples of 1 / _STEPS
 
