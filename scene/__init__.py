@@ -35,7 +35,7 @@ What every operator needs:
 - ``snapshots``: what a transaction keeps
 - ``renaming``: many data blocks get other names
 - ``property_updates``: whether it is the user who writes a property
-- ``modes``: leaves a mode, and returns to it
+- ``modes``: leaves a mode, and returns to it; what one does not show
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls
 - ``redraw``: lets windows draw again

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Leave Edit, Sculpt or a paint mode to write to a mesh, and return to it."""
+"""Leave Edit, Sculpt or a paint mode to write to a mesh, and return to it; what is not shown in one."""
 
 from __future__ import annotations
 
@@ -84,3 +84,10 @@ def call_with(operator: Callable[..., set[str]], obj: bpy.types.Object, **argume
     # raised before the override ends: Blender would keep it for ever.
     with bpy.context.temp_override(area=None, active_object=obj, object=obj, **edited): done = operator(**arguments)  # noqa: E701
     return done
+
+
+def lacks_colors(obj: bpy.types.Object | None) -> bool:
+    """Whether Blender shows no color attribute of an object, but black: while levels of Multires are sculpted."""
+    return obj is not None and obj.mode == "SCULPT" and any(
+        modifier.type == "MULTIRES" and modifier.show_viewport and modifier.sculpt_levels
+        and not modifier.use_sculpt_base_mesh for modifier in obj.modifiers)

@@ -212,13 +212,14 @@ def hides_parts(space: bpy.types.SpaceView3D, has_colors: bool, has_materials: b
 def _draw_unseen(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup,
                  room: Room) -> None:
     """How the parts are seen, in a viewport that does not show them."""
-    if not hides_parts(context.space_data, bool(result.color_attribute), result.has_materials):
+    has_colors = bool(result.color_attribute) and not modes.lacks_colors(context.object)
+    if not hides_parts(context.space_data, has_colors, result.has_materials):
         return
     box, room = layout.box().column(align=True), room.less()
     room.wrapped(box, iface_("This viewport does not show the parts."), "HIDE_ON")
     words = [iface_(word, "Operator") for word in ("Show Colors", "Give Materials")]
     row = room.row(box, *words)
-    if result.color_attribute:
+    if has_colors or (result.color_attribute and result.has_materials):
         room.operator(row, "reeb_parts.show_colors", text="Show Colors", spare="COLOR")
     room.operator(row, "reeb_parts.materials", text="Give Materials", spare="MATERIAL").remove = False
 

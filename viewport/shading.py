@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import handlers, redraw, transaction
+from ..scene import handlers, modes, redraw, transaction
 from ..scene.pieces import origins
 
 
@@ -31,7 +31,7 @@ def show_colors(context: bpy.types.Context) -> None:
     """Color the solid view by the active color attribute, without lines from each node to its parent."""
     space = _solid_view(context)
     if space is not None:
-        _show_colors(space)
+        _show_colors(space, context.object)
 
 
 def turn_to_colors(context: bpy.types.Context) -> None:
@@ -40,15 +40,15 @@ def turn_to_colors(context: bpy.types.Context) -> None:
     for view in [space] if space is not None and space.type == "VIEW_3D" else redraw.view_spaces():
         transaction.keep(view.shading, "type")
         view.shading.type = "SOLID"
-        _show_colors(view)
+        _show_colors(view, context.object)
 
 
-def _show_colors(space: bpy.types.SpaceView3D) -> None:
-    """Color a solid view by the active color attribute."""
+def _show_colors(space: bpy.types.SpaceView3D, obj: bpy.types.Object | None) -> None:
+    """Color a solid view by the active color attribute, or by materials where none is shown."""
     before = ViewSettings(space.shading.color_type, space.overlay.show_relationship_lines)
     _before.setdefault(space.as_pointer(), before)
     _keep(space)
-    space.shading.color_type = "VERTEX"
+    space.shading.color_type = "MATERIAL" if modes.lacks_colors(obj) else "VERTEX"
     space.overlay.show_relationship_lines = False
 
 

@@ -57,3 +57,21 @@ def test_the_button_shows_the_colors_of_a_linked_model(package, space, obj, tmp_
     space.shading.type = "MATERIAL"
     bpy.ops.reeb_parts.show_colors()
     assert not sys.modules[f"{package}.ui.panel"].hides_parts(space, True, False)
+
+
+def test_levels_of_multires_are_sculpted_in_colors_of_materials(package, space, obj):
+    """Blender shows them without color attributes: the model became black."""
+    obj.modifiers.new("Multires", "MULTIRES")
+    bpy.ops.object.multires_subdivide(modifier="Multires")
+    space.shading.type, space.shading.color_type = "SOLID", "VERTEX"
+    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.reeb_parts.decompose()
+    modes = sys.modules[f"{package}.scene.modes"]
+    assert modes.lacks_colors(obj)
+    bpy.ops.reeb_parts.show_colors()
+    assert space.shading.color_type == "MATERIAL"
+    obj.modifiers["Multires"].sculpt_levels = 0
+    assert not modes.lacks_colors(obj)
+    bpy.ops.reeb_parts.show_colors()
+    assert space.shading.color_type == "VERTEX"
+    bpy.ops.object.mode_set(mode="OBJECT")
