@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from ..core.steps import Steps
+from ..scene import redraw
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
@@ -60,11 +61,10 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
         return lines
 
     def _tell(self, text: str) -> None:
-        """Say something in the status bar, until something else is said; Blender's timers have no window."""
+        """Say something in the status bar, until something else is said."""
         if text != self.told:
             self.told = text
-            for workspace in bpy.data.workspaces:
-                workspace.status_text_set(text)
+            redraw.show_status(text)
 
     def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active

@@ -25,10 +25,22 @@ def viewports() -> None:
         area.tag_redraw()
 
 
-def clear_status() -> None:
-    """Let the status bar be Blender's again, in all workspaces: there may be another one now than at the start."""
-    for workspace in bpy.data.workspaces:
-        workspace.status_text_set(None)
+def show_status(text: str | None) -> None:
+    """Say something in the status bar of all workspaces; None lets it be Blender's again.
+
+    Another one may be shown by now than at the start. Blender's timers have none.
+    """
+    here, windows = bpy.context.window, bpy.context.window_manager.windows[:]
+    if here is not None and here not in windows:  # it is being closed, which an override would have Blender forget
+        bpy.context.workspace.status_text_set(text)
+        return
+    for window in windows:
+        with bpy.context.temp_override(window=window):
+            for workspace in bpy.data.workspaces:
+                # Of whichever workspace it is called, Blender sets the text of the one in the context, and draws the
+                # window there. Overridden together with the window, the workspace would be the window's.
+                with bpy.context.temp_override(workspace=workspace):
+                    workspace.status_text_set(text)
 
 
 def sidebars() -> None:

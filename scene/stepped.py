@@ -138,6 +138,6 @@ class SteppedOperator(ReportingOperator):
         jobs.current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
-        redraw.clear_status()
+        redraw.show_status(None)
         redraw.sidebars()
         running.ended(self)

@@ -41,3 +41,8 @@ def test_beside_another_scene_it_ends_and_nothing_is_changed(seen):
     assert seen["windows beside another scene"] == 1
     assert seen["beside another scene"] == []
     assert seen["computing beside another scene"] is False
+
+
+def test_the_status_bar_is_blenders_again_in_the_workspace_that_was_left(seen):
+    """It said for ever how far the computation was when another workspace was shown."""
+    assert seen["status bar after another workspace"] is True

@@ -7,6 +7,7 @@ Executed inside Blender as driver.py is, which says how.
 import importlib
 import json
 import os
+import subprocess
 import sys
 
 import bpy
@@ -40,6 +41,8 @@ def steps():
         note(f"undone, closed while {when}", differences(ready))
         save()
     yield from another_scene()
+    save()
+    yield from another_workspace()
     save()
 
 
@@ -95,6 +98,34 @@ def another_scene():
     note("computing beside another scene", jobs().current is not None)
     yield from pointer.tap("Escape")
     main().scene = bpy.data.scenes["Scene"]
+
+
+def another_workspace():
+    """The window shows another workspace while it computes, and then the first one again."""
+    yield from pointer.rest(*pointer.in_view())
+    yield 1.0
+    before = status_bar()
+    first = main().workspace
+    spot().select_set(True)
+    bpy.context.scene.reeb_parts.base_spacing *= 1.01
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.reeb_parts.decompose("INVOKE_DEFAULT", True)
+    yield from pointer.until(whether("computing"), pointer.PATIENCE)
+    main().workspace = bpy.data.workspaces["UV Editing"]
+    yield from pointer.until(lambda: not at_work(), pointer.PATIENCE)
+    yield 0.5
+    main().workspace = first
+    yield 1.0
+    pointer.shot("another_workspace.png")
+    note("status bar after another workspace", status_bar() == before)
+
+
+def status_bar():
+    """The left of it as it is seen."""
+    width, height = bpy.context.window.width, bpy.context.window.height
+    crop = f"{round(0.3 * width)}x{round(pointer.unit())}+0+{round(height - pointer.unit())}"
+    command = ["import", "-window", "root", "-crop", crop, "+repage", "ppm:-"]
+    return subprocess.run(command, check=True, capture_output=True).stdout
 
 
 def opened(new=bpy.ops.wm.window_new):

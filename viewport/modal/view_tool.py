@@ -216,7 +216,7 @@ class ViewTool(ReportingOperator):
     def _end(self, context: bpy.types.Context) -> None:
         self.preview.remove()
         context.window.cursor_modal_restore()
-        redraw.clear_status()
+        redraw.show_status(None)
         redraw.viewports()
         running.ended(self)
 
