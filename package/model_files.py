@@ -233,10 +233,25 @@ def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return _read_by_trimesh(path)
 
 
+def _read_dae(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of a .dae; raises ValueError where some is damaged.
+
+    trimesh would leave out such meshes, and those whose materials are damaged.
+    """
+    import collada
+
+    with path.open("rb") as file:
+        read = collada.Collada(file, ignore=[collada.common.DaeError])
+    for error in read.errors:
+        if not isinstance(error, collada.common.DaeUnsupportedError):  # such as a kind of light
+            raise ValueError(error.msg)
+    return _read_by_trimesh(path)
+
+
 #: What reads files of a kind; trimesh all others.
 _READERS: dict[str, Callable[[Path], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
-    ARRAYS: _read_arrays, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj, ".off": _read_off,
-    ".ply": _read_ply, ".stl": _read_stl}
+    ARRAYS: _read_arrays, ".dae": _read_dae, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj,
+    ".off": _read_off, ".ply": _read_ply, ".stl": _read_stl}
 
 
 def _plain_ply(data: bytes) -> bytes:

@@ -63,9 +63,16 @@ def _end(data: bytes) -> int:
 
 
 def _of_numbers(data: bytes) -> np.ndarray:
-    """Corners of all faces, (3 m, 3) float64, of a binary file; some programs write more behind the last one."""
+    """Corners of all faces, (3 m, 3) float64, of a binary file; some programs write more behind the last one.
+
+    Raises ValueError where faces are missing, or where what is behind the last one has the size of more faces.
+    """
+    behind = data[_end(data):]
     if len(data) < _end(data):
         raise ValueError(_ENDS)
+    if len(behind) % _FACE == 0 and any(behind):
+        raise ValueError(f"its head counts {(_end(data) - _HEAD) // _FACE} faces, and as many bytes as "
+                         f"{len(behind) // _FACE} more have follow")
     faces = np.frombuffer(data[_HEAD:_end(data)], [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("color", "<u2")])
     return faces["corners"].reshape(-1, 3).astype(np.float64)
 

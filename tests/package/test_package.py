@@ -202,6 +202,20 @@ def test_a_dae_says_which_axis_is_up(said, up, tmp_path):
     assert np.allclose(np.sort(model.vertices[model.faces].reshape(-1)), np.sort(shape.triangles.reshape(-1)))
 
 
+@pytest.mark.parametrize(("before", "words"), [
+    ("<p>", "Corrupted index"), ("<float_array[^>]*>", "Corrupted float array"),
+    ('<instance_effect url="#', "Effect not found")])
+def test_a_dae_with_a_damaged_mesh_is_refused(before, words, tmp_path):
+    """The mesh was left out without a word: of two the other was decomposed, and of one it was said to be none."""
+    meshes = [trimesh.Trimesh(*shapes.octahedron(), process=False) for _ in range(2)]
+    text = trimesh.exchange.dae.export_collada(meshes).decode()
+    damaged = re.sub(f"({before})", r"\1x", text, count=1)
+    assert damaged != text
+    (tmp_path / "model.dae").write_text(damaged, encoding="utf-8")
+    with pytest.raises(reeb_parts.ModelFileError, match=words):
+        reeb_parts.read_model(tmp_path / "model.dae")
+
+
 def test_quads_of_arrays_are_one_face_each(tmp_path):
     vertices, quads = shapes.box_quads()
     np.savez(tmp_path / "box.npz", vertices=vertices, faces=quads)

@@ -25,6 +25,11 @@ def binary(faces, head=b"solid of numbers"):
     return head.ljust(80) + np.uint32(len(faces)).tobytes() + data.tobytes()
 
 
+def counted(data, n_faces):
+    """A file of numbers whose head counts so many faces."""
+    return data[:80] + np.uint32(n_faces).tobytes() + data[84:]
+
+
 WORDS = solid(CORNERS)
 FILES = {
     "plain": WORDS.encode(),
@@ -41,6 +46,7 @@ FILES = {
     "no last line": WORDS.rpartition("endsolid")[0].encode(),
     "numbers": binary(CORNERS),
     "numbers and more": binary(CORNERS) + b"more",
+    "numbers and zeros": binary(CORNERS) + bytes(100),
     "words in the head": binary(CORNERS, b"facet normal"),
 }
 
@@ -69,11 +75,15 @@ def test_what_is_no_number_is_said_and_moves_no_label(tmp_path):
     (WORDS[:-60].encode(), "ends before its last face"),
     (WORDS[:WORDS.rindex("vertex") + 9].encode(), "ends before its last face"),
     (binary(CORNERS)[:-1], "ends before its last face"),
+    (counted(binary(CORNERS), 3), "its head counts 3 faces, and as many bytes as 1 more have follow"),
+    (counted(binary(CORNERS), 0), "its head counts 0 faces, and as many bytes as 4 more have follow"),
+    (counted(binary(CORNERS), 5), "ends before its last face"),
     (WORDS.replace("    vertex 1 0 0\n", "", 1).encode(), "a face has other than three corners"),
     (WORDS.replace("0.001", "x").encode(), "could not be read"),
     (b"", "There is no mesh"), (b"nothing of it", "There is no mesh"),
     (binary(np.empty((0, 3, 3))), "There is no mesh"),
-], ids=["cut off", "cut off in a face", "numbers cut off", "two corners", "a word", "empty", "text", "no face"])
+], ids=["cut off", "cut off in a face", "numbers cut off", "one face too few is counted", "none is counted",
+         "one too many is counted", "two corners", "a word", "empty", "text", "no face"])
 def test_what_cannot_be_read_is_said(data, words, tmp_path):
     (tmp_path / "model.stl").write_bytes(data)
     with pytest.raises(reeb_parts.ModelFileError, match=words):
