@@ -156,9 +156,10 @@ def _checked(name: str, values: ArrayLike, shape: tuple[int, ...]) -> np.ndarray
     """Values as an array of finite numbers of a shape; raises ParameterError if they are none."""
     array = as_numbers(values)
     if array is None or array.shape != shape or not np.isfinite(array).all():
+        given = type(values).__name__ if array is None else next(iter(array[~np.isfinite(array)]), array.shape)
         raise ParameterError(
             Sentence("{name} must be finite numbers of shape {shape}, not {given}.", name=name, shape=shape,
-                     given=type(values).__name__ if array is None else array.shape), name)
+                     given=given), name)
     return array
 
 

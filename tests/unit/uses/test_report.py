@@ -113,6 +113,16 @@ def test_what_is_not_one_for_each_part_is_refused(result, name, value):
     assert caught.value.name in (name, *more)
 
 
+@pytest.mark.parametrize("where", [slice(None), (0, 1)])
+def test_what_is_no_finite_number_is_named(result, where):
+    """The sentence asked for the very shape that it said was given."""
+    colors = np.full((result.parts().count, 3), 0.5)
+    colors[where] = np.nan
+    for given in (colors, np.nan):
+        with pytest.raises(ParameterError, match=r"^colors must be finite numbers of shape \(\d+, 3\), not nan\.$"):
+            report(result, colors=given)
+
+
 @pytest.mark.parametrize("number", ["a", 1.5, 0, -1])
 def test_numbers_of_parts_are_whole_and_begin_at_1(result, number):
     """A ValueError, a part of number 1, and a report that its schema does not allow."""
