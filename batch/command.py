@@ -11,8 +11,8 @@ one of several models that cannot be read, is named in the JSON, and costs only 
 the same parts, those of the first. With -b, Blender prints its version to standard output first; "blender -q -b ..."
 leaves that out where something reads from a pipe, and --json OUT.json has the JSON alone.
 
-The exit status is 0 only if every object was decomposed and every file written, and 130 after Ctrl+C; an OUT.json of
-an earlier run does not outlast one that failed.
+The exit status is 0 only if every object was decomposed and every file written, 2 where an option is wrong, and 130
+after Ctrl+C; an OUT.json of an earlier run does not outlast one that failed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from typing import Any, TextIO
 
 import bpy
 
-from ..core.errors import ReebError
+from ..core.errors import ParameterError, ReebError
 from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..scene import store, targets
@@ -48,7 +48,7 @@ from .messages import problem, say
 from .models import find_objects
 from .options import parser, separate_style
 
-FAILED = 1
+FAILED, WRONG_OPTION = 1, 2  # the latter is argparse's
 
 
 def main(arguments: list[str]) -> int:
@@ -66,7 +66,7 @@ def main(arguments: list[str]) -> int:
             return end.status
         except (SceneError, ReebError) as error:
             say(str(error))
-            return FAILED
+            return WRONG_OPTION if isinstance(error, ParameterError) else FAILED
         try:
             answer.write(_as_text(result))
             answer.flush()
@@ -168,15 +168,19 @@ def decompose_object(obj: bpy.types.Object, computations: Computations, options:
             results.write_result(bpy.context, obj, outcome, options)
         elif options.graph:
             results.draw_graph(bpy.context, obj, store.load(obj.data).shown_parts(), options)
-        made = make_uses(obj, options)
+        made = make_uses(obj, options, with_armature=options.armature and twin is None)
         found = object_report(obj, options.labels, options.check)
         if twin:
-            found["notes"].append(f"It shares the mesh of {twin.name}, and so its parts.")
+            found["notes"].append(f"It shares the mesh of {twin.name}, and so its parts"
+                                  f"{'; only that one has an armature' if options.armature else ''}.")
         return found | made
 
 
-def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
-    """Make of the parts of an object what the options ask for; what its entry in the JSON says of that."""
+def make_uses(obj: bpy.types.Object, options: argparse.Namespace, with_armature: bool) -> dict:
+    """Make of the parts of an object what the options ask for; what its entry in the JSON says of that.
+
+    with_armature : an object that shares its mesh with one that has an armature gets none, as weights are the mesh's.
+    """
     stored = store.load(obj.data)
     said: dict[str, Any] = {}
     if is_separated(options):
@@ -194,7 +198,7 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
         piece_objects.make_bodies(bpy.context, obj, stored, options.rigid_bodies.upper())
     if options.unwrap:
         uv_map.unwrap(bpy.context, obj, stored, open_parts=True, method="MINIMUM_STRETCH", stack=False)
-    if options.armature:
+    if with_armature:
         armature.make(bpy.context, obj, stored, deform=True)
     if options.hulls:
         hulls.make(bpy.context, obj, stored, options.hulls.upper(), options.hulls_per_part)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import argparse
 
-from ..core.errors import ReebError
+from ..core.errors import ParameterError, ReebError
 from ..core.version import VERSION
 from . import batch, decompose, similar
 from .words import say
 
 COMMANDS = {"decompose": decompose, "batch": batch, "similar": similar}
-FAILED = 1
+FAILED, WRONG_OPTION = 1, 2  # the latter is argparse's
 
 
 def parse(arguments: list[str] | None = None) -> argparse.Namespace:
@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
         return COMMANDS[options.command].run(options)
     except ReebError as error:
         say(str(error))
-        return FAILED
+        return WRONG_OPTION if isinstance(error, ParameterError) else FAILED
     except MemoryError:
         say("There is not enough memory.")
         return FAILED

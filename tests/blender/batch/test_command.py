@@ -249,7 +249,7 @@ def test_an_old_answer_does_not_outlast_a_failed_run(run, model, two, tmp_path, 
     (tmp_path / "out.json").write_text("an answer of yesterday")
     words = [str(tmp_path / word) if "." in word else word for word in arguments]
     ended = run(*words, "--json", tmp_path / "out.json")
-    assert (ended.status, ended.out) == (1, "")
+    assert (ended.status, ended.out) == (2 if "--detail" in arguments else 1, "")
     assert process.content(tmp_path) == before
     said = [line for line in ended.err.splitlines() if line.startswith("reeb_parts: ")]
     assert said
@@ -479,6 +479,20 @@ def test_objects_that_share_a_mesh_have_the_parts_of_the_first(run, obj, tmp_pat
         assert {body.name for body in bodies if body.name.startswith(name)} == names
         assert f"Reeb Graph {name}" in bpy.data.collections
     assert reports["Flat"]["parts"][0]["bounding_box"] != reports["Tree"]["parts"][0]["bounding_box"]
+
+
+def test_of_objects_that_share_a_mesh_one_has_an_armature(run, obj):
+    """The others were problems, without anything that had been asked for besides."""
+    twin = bpy.data.objects.new("Twin", obj.data)
+    bpy.context.scene.collection.objects.link(twin)
+    ended = run("--object", "*", "--armature", "--separate")
+    assert (ended.status, ended.answer["problems"]) == (0, [])
+    assert [report["name"] for report in ended.answer["objects"]] == ["Tree", "Twin"]
+    note = "It shares the mesh of Tree, and so its parts; only that one has an armature."
+    assert note in ended.answer["objects"][1]["notes"]
+    assert [bool(each.modifiers) for each in (obj, twin)] == [True, False]
+    assert len(bpy.data.armatures) == 1
+    assert len(bpy.data.collections["Parts of Twin"].objects) > 1
 
 
 @pytest.mark.parametrize("uses", [USES, ("--armature",)])
