@@ -236,7 +236,8 @@ def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def _read_dae(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a .dae; raises ValueError where some is damaged.
 
-    trimesh would leave out such meshes, and those whose materials are damaged.
+    trimesh would leave out such meshes, and those whose materials are damaged, and keeps no list of them: the file is
+    read twice.
     """
     import collada
 

@@ -43,7 +43,8 @@ def parse_stl(data: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     Raises
     ------
     ValueError
-        It ends before its last face, or something that should be a number is none.
+        It ends before its last face, has the size of more faces behind it, or something that should be a number is
+        none.
     """
     corners = _of_numbers(data) if _is_binary(data) else _of_words(plain_text(data).replace(b"\r", b"\n"))
     return corners, np.arange(len(corners)).reshape(-1, 3), np.arange(len(corners) // 3)
@@ -67,13 +68,14 @@ def _of_numbers(data: bytes) -> np.ndarray:
 
     Raises ValueError where faces are missing, or where what is behind the last one has the size of more faces.
     """
-    behind = data[_end(data):]
-    if len(data) < _end(data):
+    end = _end(data)
+    if len(data) < end:
         raise ValueError(_ENDS)
+    behind = data[end:]
     if len(behind) % _FACE == 0 and any(behind):
-        raise ValueError(f"its head counts {(_end(data) - _HEAD) // _FACE} faces, and as many bytes as "
+        raise ValueError(f"its head counts {(end - _HEAD) // _FACE} faces, and as many bytes as "
                          f"{len(behind) // _FACE} more have follow")
-    faces = np.frombuffer(data[_HEAD:_end(data)], [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("color", "<u2")])
+    faces = np.frombuffer(data[_HEAD:end], [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("color", "<u2")])
     return faces["corners"].reshape(-1, 3).astype(np.float64)
 
 
