@@ -153,7 +153,7 @@ class REEB_PARTS_OT_split_at_node(ReportingOperator, bpy.types.Operator):
         item = targets.active_object(context)
         assert item is not None  # check_context has looked
         mesh = item.parent.data
-        number, new = edits.split_at_node(context, mesh, item["node"])
+        number, new = edits.split_at_node(context, mesh, moved.load(mesh), item["node"])
         # The node's part is the one to go on with.
         choose(mesh, [item["part"]])
         self.report({"INFO"}, rpt_("{new} was cut from {name}").format(

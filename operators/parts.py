@@ -167,5 +167,5 @@ class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
         with_faces = set()
         if self.action == "FACES":
             with object_mode(context):
-                with_faces = set(store.load(mesh).face_numbers[selection.selected_faces(mesh)].tolist())
+                with_faces = set(moved.load(mesh).face_numbers[selection.selected_faces(mesh)].tolist())
         part_list.mark(mesh, self.action, with_faces)

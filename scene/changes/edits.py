@@ -17,7 +17,6 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ...core.arrays.components import components
 from ...core.mesh.labels import FaceGraph
 from ...core.result.parts import Parts
-from .. import store
 from ..errors import SceneError
 from ..result import part_names
 from ..store import Stored
@@ -110,7 +109,7 @@ def halved(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     return _split_off(mesh, stored, number, side)[0]
 
 
-def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -> tuple[int, int]:
+def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, node: int) -> tuple[int, int]:
     """Split the part that holds a node of the graph; the smaller side becomes a new part.
 
     Returns
@@ -121,11 +120,10 @@ def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -
     Raises
     ------
     SceneError
-        The part is locked, cannot be split, or the mesh was edited.
+        The part is locked, or cannot be split.
     """
     from ...core.result.editing.changes import node_split, smaller_side
 
-    stored = store.load(mesh)
     number = int(stored.shown[stored.decomposition.node_candidate[node]])
     pins.check_unlocked(mesh, [number])
     mask = stored.shown == number

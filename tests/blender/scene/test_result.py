@@ -363,6 +363,19 @@ def test_a_flat_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, make, mov
     check_that_it_keeps_its_parts(package, obj, move)
 
 
+def test_commands_of_the_graph_and_the_list_take_a_mesh_that_was_moved_as_a_whole(obj):
+    """Without a window no timer looks: these two called it edited, where others went on."""
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    obj.scale = (2.0, 2.0, 2.0)
+    bpy.ops.object.transform_apply()
+    bpy.context.view_layer.objects.active = next(item for item in obj.children if item.get("kind") == "saddle")
+    assert bpy.ops.reeb_parts.split_at_node() == {"FINISHED"}
+    bpy.context.view_layer.objects.active = obj
+    obj.scale = (3.0, 3.0, 3.0)
+    bpy.ops.object.transform_apply()
+    assert bpy.ops.reeb_parts.mark(action="FACES") == {"FINISHED"}
+
+
 def test_half_of_a_model_keeps_its_parts_where_its_other_half_is_the_same(package, make):
     """Apply Scale, which half models need before they are bent or bevelled, counted as an edit."""
     obj = make(shapes.half_of(shapes.mirrored_figure()), "Figure")
