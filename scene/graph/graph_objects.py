@@ -160,7 +160,7 @@ def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.nd
     back : as of ``arc_curves.places``, where the graph is. seen : (k + r, 3) float64, where it is to be seen.
     """
     nodes, item = list(graph_finding.nodes(obj)), graph_finding.arcs(obj)
-    if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
+    if not _are_of(nodes, graph.n_nodes):
         return False
     offset = (seen - arc_curves.places(graph, back)).astype(np.float32)
     moved = [node for node in nodes if node.delta_location[:] != tuple(offset[node["node"]].tolist())]
@@ -180,20 +180,20 @@ def put_back(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, scale: f
     back : as of ``arc_curves.places``. scale : how much larger the mesh has become.
     """
     nodes, item, points = list(graph_finding.nodes(obj)), graph_finding.arcs(obj), arc_curves.places(graph, back)
-    if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
+    if not _are_of(nodes, graph.n_nodes):
         return
     for node in nodes:
         _unmove(node)
-        transaction.keep(node, "empty_display_size")
         node.location = points[node["node"]]
-        if is_folded(node):
-            transaction.keep_keys(node, _SIZE)
-            node[_SIZE] *= scale
-        else:
-            node.empty_display_size *= scale
+        _set_size(node, scale * (node[_SIZE] if is_folded(node) else node.empty_display_size))
     if item is not None:
         _unmove(item)
         _draw_curve(item, graph, back, _drawn(item, graph))
+
+
+def _are_of(nodes: Iterable[bpy.types.Object], count: int) -> bool:
+    """Whether all of some empties stand for nodes of a graph that has so many, be it another graph than theirs."""
+    return all(0 <= node.get("node", -1) < count for node in nodes)
 
 
 def _unmove(item: bpy.types.Object) -> None:
@@ -222,7 +222,7 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
         return
     parts = numbered.parts
     numbers = numbered.numbers[parts.node_part].tolist()
-    if not all(0 <= node.get("node", -1) < len(numbers) for node in nodes):
+    if not _are_of(nodes, len(numbers)):
         graph_removal.remove(obj)
         return
     graph = parts.decomposition.graph
@@ -324,18 +324,23 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
     for item in graph_finding.originals(graph_finding.inside(collection)):
-        transaction.keep(item, "empty_display_size", "show_in_front")
-        if item.get(ROLE) == graph_finding.NODE:
-            if is_folded(item):
-                transaction.keep_keys(item, _SIZE)
-                item[_SIZE] = size
-            else:
-                item.empty_display_size = size
-            item.show_in_front = style.in_front
-        elif item.get(ROLE) == graph_finding.ARCS:
+        transaction.keep(item, "show_in_front")
+        item.show_in_front = style.in_front
+        if item[ROLE] == graph_finding.NODE:
+            _set_size(item, size)
+        else:
             transaction.keep(item.data, "bevel_depth")
             item.data.bevel_depth = style.line_thickness
-            item.show_in_front = style.in_front
+
+
+def _set_size(node: bpy.types.Object, size: float) -> None:
+    """Let a node be so large, if it is folded once it is so no more."""
+    if is_folded(node):
+        transaction.keep_keys(node, _SIZE)
+        node[_SIZE] = size
+    else:
+        transaction.keep(node, "empty_display_size")
+        node.empty_display_size = size
 
 
 def select_nodes(obj: bpy.types.Object, numbers: Container[int]) -> None:
