@@ -13,6 +13,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import running
+from .redraw import viewports_of
 from .runs import jobs
 
 # What is about to go on, if anything.
@@ -57,7 +58,7 @@ class _Left:
     def go_on(self) -> None:
         """Called by Blender when the window is gone."""
         # Windows with a viewport first, before those of the preferences and such.
-        windows = sorted(bpy.context.window_manager.windows, key=lambda window: not _viewports(window))
+        windows = sorted(bpy.context.window_manager.windows, key=lambda window: not viewports_of(window))
         same = [window for window in windows if _shown(window) == self._showed]
         try:
             if not same or jobs.current is not None or not self._start(same[0]):
@@ -70,7 +71,7 @@ class _Left:
         module, name = self._called.lower().split("_ot_")
         call = getattr(getattr(bpy.ops, module), name)
         place: dict[str, Any] = {}
-        for area in _viewports(window)[:1]:
+        for area in viewports_of(window)[:1]:
             place = {"area": area, "region": next(region for region in area.regions if region.type == "WINDOW")}
         try:
             with bpy.context.temp_override(window=window, **place):
@@ -102,11 +103,6 @@ class _Left:
         _left = None
         if bpy.app.timers.is_registered(self.timer):
             bpy.app.timers.unregister(self.timer)
-
-
-def _viewports(window: bpy.types.Window) -> list[bpy.types.Area]:
-    """The 3D viewports of a window."""
-    return [area for area in window.screen.areas if area.type == "VIEW_3D"]
 
 
 def _arguments(properties: bpy.types.OperatorProperties) -> dict[str, Any]:

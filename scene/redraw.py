@@ -8,10 +8,15 @@ from collections.abc import Iterator
 import bpy
 
 
+def viewports_of(window: bpy.types.Window) -> list[bpy.types.Area]:
+    """The 3D viewports of a window."""
+    return [area for area in window.screen.areas if area.type == "VIEW_3D"]
+
+
 def _viewports() -> Iterator[bpy.types.Area]:
     """The 3D viewports of all windows."""
     for window in bpy.context.window_manager.windows:
-        yield from (area for area in window.screen.areas if area.type == "VIEW_3D")
+        yield from viewports_of(window)
 
 
 def view_spaces() -> Iterator[bpy.types.SpaceView3D]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import handlers
+from ..scene import handlers, redraw
 from ..scene.graph import graph_finding
 from ..scene.result.part_list import choose
 
@@ -29,9 +29,7 @@ def _follow_active() -> None:
 def _ask_pointer() -> None:
     """Which arc it was, only the pointer knows, by where its button was pressed."""
     for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type != "VIEW_3D":
-                continue
+        for area in redraw.viewports_of(window):
             region = next(region for region in area.regions if region.type == "WINDOW")
             with bpy.context.temp_override(window=window, area=area, region=region):
                 operator = bpy.ops.reeb_parts.from_arc

@@ -17,7 +17,7 @@ from gpu_extras.batch import batch_for_shader
 
 from ..scene import store
 from ..scene.graph import graph_finding, graph_follow, graph_objects
-from ..scene.ours import made_objects
+from ..scene.ours.made_objects import ROLE
 from ..scene.result import part_names
 from .graph_lines import GraphLines
 from .lines import Lines
@@ -112,9 +112,9 @@ def draw() -> None:
 def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: list[bpy.types.Object]) -> None:
     gpu.state.depth_test_set("NONE" if items[0].show_in_front else "LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
-    if any(item.get(made_objects.ROLE) == "arcs" for item in items):
+    if any(item.get(ROLE) == graph_finding.ARCS for item in items):
         _draw_arcs(source, items)
-    nodes = [item for item in items if item.get(made_objects.ROLE) == "node" and not graph_objects.is_folded(item)]
+    nodes = [item for item in items if item.get(ROLE) == graph_finding.NODE and not graph_objects.is_folded(item)]
     if nodes:
         _draw_nodes(context, source, nodes)
     gpu.state.blend_set("NONE")

@@ -14,9 +14,10 @@ import bpy
 
 from .. import transaction
 from ..ours.made_objects import ROLE
+from ..redraw import viewports_of
 from ..showing.selection import in_layer
 from . import graph_finding, graph_objects
-from .graph_finding import SHOWN_BEFORE
+from .graph_finding import ARCS, NODE, SHOWN_BEFORE
 
 _along: set[tuple[int, int]] = set()  # viewports, by address, and objects of graphs, by session_uid, that came along
 
@@ -95,7 +96,7 @@ def _in_local_views(context: bpy.types.Context
                     and graph_objects.is_shown(context, source)):
                 continue
             for item in source.children:
-                if item.get(ROLE) in ("node", "arcs") and in_layer(layer, item):
+                if item.get(ROLE) in (NODE, ARCS) and in_layer(layer, item):
                     found[space.as_pointer(), item.session_uid] = space, item
     return found
 
@@ -103,10 +104,9 @@ def _in_local_views(context: bpy.types.Context
 def _local_views(context: bpy.types.Context) -> Iterator[tuple[bpy.types.ViewLayer, bpy.types.SpaceView3D]]:
     """The viewports that show some objects alone, with their view layers."""
     for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            space = area.spaces.active
-            if area.type == "VIEW_3D" and space.local_view:
-                yield window.view_layer, space
+        for area in viewports_of(window):
+            if area.spaces.active.local_view:
+                yield window.view_layer, area.spaces.active
 
 
 def _graphs() -> Iterator[tuple[bpy.types.Collection, bpy.types.Object]]:
