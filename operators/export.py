@@ -7,11 +7,9 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import store, targets
-from ..scene.changes import moved
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.reporting import ReportingOperator
+from ..scene.reporting import ReportingOperator, chosen_with_parts, with_current_parts
 from ..scene.result.part_list import wanted_numbers
 from ..scene.saving.export import KINDS, export_parts
 from ..scene.saving.run_files import together
@@ -62,11 +60,10 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         if not self.directory:
             raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
         folder = Path(bpy.path.abspath(self.directory))
-        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
-        objects = [obj for obj in chosen if store.has_result(obj.data)]
+        objects = chosen_with_parts(context, self.report, one_per_mesh=False)
         with object_mode(context), together() as files:
             if not self.separated:
-                objects = [obj for obj, _ in targets.usable(objects, lambda obj: moved.load(obj.data), self.report)]
+                objects = [obj for obj, _ in with_current_parts(objects, self.report)]
             # Pieces may be of other parts than those in the list, which are of the detail that is shown now.
             every = self.separated and self.which == "ALL"
             wanted = [(obj, None if every else wanted_numbers(obj.data, self.which)) for obj in objects]

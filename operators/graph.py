@@ -5,13 +5,13 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import property_updates, store, targets, transaction
+from ..scene import property_updates, targets, transaction
 from ..scene.changes import edits, moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_objects
 from ..scene.graph.graph_finding import part_of, source_of_arcs
 from ..scene.modes import object_mode
-from ..scene.reporting import ReportingOperator
+from ..scene.reporting import ReportingOperator, chosen_with_parts
 from ..scene.result import part_names
 from ..scene.result.part_list import check_parts, choose, chosen_numbers
 from ..scene.showing.selection import select_objects
@@ -33,8 +33,7 @@ class REEB_PARTS_OT_show_graph(ReportingOperator, bpy.types.Operator):
                 with object_mode(context):
                     moved.load(obj.data)
 
-        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
-        objects = [obj for obj in chosen if store.has_result(obj.data)]
+        objects = chosen_with_parts(context, self.report, one_per_mesh=False)
         for obj, _ in targets.usable(objects, look, self.report):
             reactions.show_graph(obj, shown, context)
         transaction.keep_group(context.scene, "reeb_parts")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work on the parts of the list: select, isolate, mark."""
+"""Work on the parts of the list: select, hide, look at, name, mark; show their colors."""
 
 import bpy
 import numpy as np
@@ -11,12 +11,11 @@ from ..scene.changes import moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
-from ..scene.reporting import PartOperator, ReportingOperator
+from ..scene.reporting import PartOperator, ReportingOperator, chosen_with_parts, with_current_parts
 from ..scene.result import naming, part_list, part_names, part_places
 from ..scene.result.part_list import chosen_numbers
 from ..scene.showing import hidden, selection
 from ..scene.store import Stored
-from ..scene.targets import active_object, users
 from ..viewport import framing, hover, pointing, shading
 
 
@@ -79,7 +78,7 @@ def _look_again(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Show of the graph and of what is pointed at what is seen of the parts, now that others are hidden."""
     pointing.forget()
     hover.clear()  # until the pointer moves, it would stay filled
-    for user in users(mesh):
+    for user in targets.users(mesh):
         graph_objects.update_parts(user, stored.shown_parts())
 
 
@@ -108,9 +107,9 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
     bl_label = "Suggest Names"
 
     def run(self, context: bpy.types.Context) -> None:
-        objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
+        objects = chosen_with_parts(context, self.report)
         with object_mode(context):
-            found = list(targets.usable(objects, lambda obj: moved.load(obj.data), self.report))
+            found = list(with_current_parts(objects, self.report))
             count = sum(self._named(obj, stored) for obj, stored in found)
         total = sum(len(obj.data.reeb_parts.parts) for obj, _ in found)
         if count or not total:
@@ -135,11 +134,11 @@ class REEB_PARTS_OT_show_colors(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        if not store.has_parts(active_object(context)):  # nothing is written to them: they may be linked
+        if not store.has_parts(targets.active_object(context)):  # nothing is written to them: they may be linked
             super().check_context(context)
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = active_object(context)
+        obj = targets.active_object(context)
         assert obj is not None  # check_context has looked
         if not obj.data.reeb_parts.color_attribute:
             raise SceneError(rpt_("The parts have no colors. Switch these on under Advanced, Output; decompose again."))
@@ -161,7 +160,7 @@ class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
     )
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = active_object(context)
+        obj = targets.active_object(context)
         assert obj is not None  # check_context has looked
         mesh = obj.data
         with_faces = set()

@@ -7,12 +7,11 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import store, targets
-from ..scene.changes import moved
+from ..scene import targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.pieces import origins, piece_objects, separation
-from ..scene.reporting import ReportingOperator
+from ..scene.reporting import ReportingOperator, chosen_with_parts, with_current_parts
 from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
 from ..scene.showing.selection import in_layer, select_objects
@@ -50,11 +49,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         check_parts(targets.active_object(context))
-        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
-        objects = [obj for obj in chosen if store.has_result(obj.data)]
+        objects = chosen_with_parts(context, self.report, one_per_mesh=False)
         made = []
         with object_mode(context):
-            found = list(targets.usable(objects, lambda obj: moved.load(obj.data), self.report))
+            found = list(with_current_parts(objects, self.report))
             for index, (obj, stored) in enumerate(found):
                 steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))

@@ -101,14 +101,25 @@ class SelectedPartsOperator(PartOperator):
         return moved.load(obj.data)
 
     def run(self, context: bpy.types.Context) -> None:
-        chosen = targets.chosen_objects(context, self.report, self.one_per_mesh)
-        objects = [obj for obj in chosen if store.has_result(obj.data)]
+        objects = chosen_with_parts(context, self.report, self.one_per_mesh)
         with object_mode(context):
             for obj, stored in targets.usable(objects, self.look, self.report):
                 with named(obj, len(objects) > 1):
                     message = self.work(context, obj, stored)
                 if message:
                     self.report({"INFO"}, f"{obj.name}: {message}" if len(objects) > 1 else message)
+
+
+def chosen_with_parts(context: bpy.types.Context, report: Callable[[set[str], str], None],
+                      one_per_mesh: bool = True) -> list[bpy.types.Object]:
+    """Those of ``targets.chosen_objects`` that have parts, be these out of date."""
+    return [obj for obj in targets.chosen_objects(context, report, one_per_mesh) if store.has_result(obj.data)]
+
+
+def with_current_parts(objects: list[bpy.types.Object],
+                       report: Callable[[set[str], str], None]) -> Iterator[tuple[bpy.types.Object, Stored]]:
+    """Yield objects with their parts, without those whose parts are out of date; see ``targets.usable``."""
+    return targets.usable(objects, lambda obj: moved.load(obj.data), report)
 
 
 @contextmanager
