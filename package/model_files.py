@@ -174,7 +174,7 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     except ImportError as error:
         raise NoReaderError(Sentence("{path} needs a package that is not there ({reason}). What most files need comes "
                                      'with pip install "reeb-parts[formats]".', path=path, reason=error)) from error
-    except Exception as error:  # noqa: BLE001 - whatever a reader of damaged files raises
+    except Exception as error:  # whatever a reader of damaged files raises
         if lacks_memory(str(error)):
             raise MemoryError from error
         raise _unreadable(path, f"{type(error).__name__}: {str(error) or 'it is damaged'}") from error

@@ -208,7 +208,7 @@ def _layer(layer) -> dict:
 
 
 def _properties(data) -> dict:
-    values = {key: data[key] for key in data.keys()}  # noqa: SIM118 - Blender's data is no dict
+    values = {key: data[key] for key in data.keys()}
     return {key: getattr(value, "name", None) or str(value) for key, value in values.items()}
 
 

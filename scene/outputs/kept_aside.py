@@ -29,7 +29,7 @@ def add_attribute(mesh: bpy.types.Mesh, known: str, name: str, kind: str, domain
         return known
     index = mesh.attributes.active_index
     # With the name of a vertex group, Blender 4 makes none.
-    groups = {name for obj in targets.users(mesh)[:1] for name in obj.vertex_groups.keys()}  # noqa: SIM118
+    groups = {name for obj in targets.users(mesh)[:1] for name in obj.vertex_groups.keys()}
     name = mesh.attributes.new(part_names.distinct(name, groups.union(mesh.attributes.keys())), kind, domain).name
     mesh.attributes.active_index = index
     return name

@@ -48,7 +48,7 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
         outputs.remove_outputs(twin)
         attributes.write(copy)
         copy.property_unset("reeb_parts")
-    for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
+    for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:
         del copy[key]
     is_hidden = any(a.name.startswith(hidden.ATTRIBUTE) for a in copy.attributes)  # then it is we who hid faces
     ours = (kept_aside.PREFIX, hidden.ATTRIBUTE, *([".hide_"] if is_hidden else []))

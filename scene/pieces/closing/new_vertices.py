@@ -85,7 +85,7 @@ def _set(vertices: list[BMVert], layer: bmesh.types.BMLayerItem, values: np.ndar
 
 def _spread_weights(made: list[BMVert], rim: list[BMVert], disc: Disc, deform: bmesh.types.BMLayerItem) -> None:
     """Give the vertices inside a surface weights between those of its rim."""
-    groups = sorted({group for v in rim for group in v[deform].keys()})  # noqa: SIM118
+    groups = sorted({group for v in rim for group in v[deform].keys()})
     if not groups:
         return
     weights = disc.spread(np.array([[v[deform].get(group, 0.0) for group in groups] for v in rim]))

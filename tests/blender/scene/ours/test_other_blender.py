@@ -82,7 +82,7 @@ def test_nothing_is_left_of_what_blender_4_had_stored(marked, button):
     activate(tree)
     getattr(bpy.ops.reeb_parts, button)()
     if button == "clear":
-        assert [key for block in (tree, tree.data) for key in block.keys() if key.startswith("reeb")] == []  # noqa: SIM118
+        assert [key for block in (tree, tree.data) for key in block.keys() if key.startswith("reeb")] == []
     elif bpy.app.version >= (5, 0):
         assert "reeb_parts" not in tree.data
         assert tree.data.reeb_parts.parts

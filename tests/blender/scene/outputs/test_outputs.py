@@ -436,7 +436,7 @@ def test_an_attribute_of_ours_that_was_made_a_vertex_group_is_the_users(obj):
     assert "reeb_part.001" in mesh.attributes
     bpy.ops.reeb_parts.clear()
     assert obj.vertex_groups.keys() == ["reeb_part"]
-    assert not [name for name in mesh.attributes.keys() if name.startswith("reeb")]  # noqa: SIM118
+    assert not [name for name in mesh.attributes.keys() if name.startswith("reeb")]
 
 
 @pytest.mark.parametrize("n_parts", [0, 2])

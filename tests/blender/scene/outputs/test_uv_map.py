@@ -218,7 +218,7 @@ def test_twice_is_once_and_clear_removes_it(obj):
     assert snapshot() == once
     bpy.ops.reeb_parts.clear()
     assert not obj.data.uv_layers
-    assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]  # noqa: SIM118
+    assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]
 
 
 def move_islands(mesh):
@@ -238,7 +238,7 @@ def test_clear_leaves_a_map_that_was_changed_by_hand(obj, capfd):
     assert f"Info: Tree: the UV map {MAP} was changed by hand and stays" in capfd.readouterr().out
     assert obj.data.uv_layers.keys() == [MAP]
     assert (read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2) == by_hand).all()
-    assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]  # noqa: SIM118
+    assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]
 
 
 @pytest.mark.parametrize("chosen", ["", "First", "Third"])

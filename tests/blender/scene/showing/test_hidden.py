@@ -112,7 +112,7 @@ def test_clear_leaves_hidden_what_was_hidden_in_edit_mode_before(obj, result, wa
     bpy.ops.reeb_parts.hide()
     bpy.ops.reeb_parts.clear()
     assert [polygon.index for polygon in obj.data.polygons if polygon.hide] == sorted(kept.tolist())
-    assert not [name for name in obj.data.attributes.keys() if "reeb" in name]  # noqa: SIM118
+    assert not [name for name in obj.data.attributes.keys() if "reeb" in name]
 
 
 def test_where_the_user_has_renamed_a_node_parts_are_hidden_all_the_same(obj, result):
