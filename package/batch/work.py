@@ -35,6 +35,9 @@ from .records import (
     write_record,
 )
 
+#: What became of a model, by the first class here that an error is of.
+_STATUS = {NoReaderError: READER, CrashedReaderError: CRASH, ModelFileError: UNREADABLE, ReebError: REFUSED}
+
 
 def do_model(job: dict[str, Any]) -> dict[str, Any]:
     """Decompose a model and write its folder.
@@ -67,15 +70,10 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
         record, files = _results(job, settings)
     except MemoryError:
         raise
-    except NoReaderError as error:
-        record, files = failure(name, READER, str(error), settings.digest), {}
-    except CrashedReaderError as error:
-        record, files = failure(name, CRASH, str(error), settings.digest), {}
-    except ModelFileError as error:
-        record, files = failure(name, UNREADABLE, str(error), settings.digest), {}
     except ReebError as error:
-        record, files = failure(name, REFUSED, str(error), settings.digest), {}
-    except Exception as error:  # noqa: BLE001 - it costs this model only, and its record says where it happened
+        status = next(status for kind, status in _STATUS.items() if isinstance(error, kind))
+        record, files = failure(name, status, str(error), settings.digest), {}
+    except Exception as error:  # it costs this model only, and its record says where it happened
         if lacks_memory(str(error)):
             raise MemoryError from error
         place = traceback.extract_tb(error.__traceback__)[-1]

@@ -42,6 +42,14 @@ class MissingPackageError(ReebError):
     """A package of the extra "batch" is not there."""
 
 
+def check_packages(*names: str) -> None:
+    """Raise MissingPackageError unless all of some packages are there."""
+    missing = [name for name in names if find_spec(name) is None]
+    if missing:
+        raise MissingPackageError(Sentence('Install {names} first: pip install "reeb-parts[batch]".',
+                                           names=", ".join(missing)))
+
+
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
     parser.add_argument("models", nargs="*", metavar="MODELS", help="folders, which are searched with all that is in "
@@ -79,10 +87,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Do what the options ask for; returns the exit status. Raises ReebError."""
-    missing = [name for name in NEEDED if find_spec(name) is None]
-    if missing:
-        raise MissingPackageError(Sentence('Install {names} first: pip install "reeb-parts[batch]".',
-                                           names=", ".join(missing)))
+    check_packages(*NEEDED)
     start = time.perf_counter()
     batch = _Batch(options)
     with as_output_error(batch.out):
@@ -258,7 +263,6 @@ class _Batch:
         return {"models": counted, "kept": self.kept, "files": {
             "models": readable(models), "parts": readable(parts), "page": readable(page),
             "folders": readable(self.out / "models")}}
-
 
     def _record(self, source: Source) -> dict[str, Any]:
         """The record of a model; where it could not be written, as on a full disk, one of what its worker has said."""

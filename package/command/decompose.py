@@ -60,7 +60,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     files.add_argument("--picture", type=file_of((".png",)), metavar="OUT.png",
                        help="a picture of the parts with the graph")
     files.add_argument("--picture-size", type=number(16, LARGEST_PICTURE, int), default=640, metavar="N",
-                       help="its width and height in pixels, 16 to 4096 (default: %(default)s)")
+                       help=f"its width and height in pixels, 16 to {LARGEST_PICTURE} (default: %(default)s)")
     add_parameters(parser.add_argument_group("parameters"))
 
 

@@ -11,14 +11,13 @@ from __future__ import annotations
 
 import argparse
 import json
-from importlib.util import find_spec
 from pathlib import Path
 
 from ..core.file_names import readable
 from ..core.options import number as number_option
 from ..core.sentence import Sentence
 from ..output_files import OutputFileError, write_files
-from .batch import MissingPackageError
+from .batch import check_packages
 from .decompose import file_of
 from .words import print_answer
 
@@ -36,8 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Do what the options ask for; returns the exit status. Raises ReebError."""
-    if find_spec("pyarrow") is None:
-        raise MissingPackageError(Sentence('Install {names} first: pip install "reeb-parts[batch]".', names="pyarrow"))
+    check_packages("pyarrow")
     from ..batch.page import PAGE
     from ..batch.similar import page, similar_parts
 
