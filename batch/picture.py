@@ -25,9 +25,7 @@ from ..scene.reading import mesh_arrays, placing
 from ..scene.saving import file_checks
 from ..scene.temporary import freed, removed
 
-#: Where the camera stands: in front (Blender's front is -Y), to the left and above.
-VIEW = (-0.62, -1.0, 0.48)
-BACKGROUND = (0.955, 0.957, 0.962)
+
 @dataclass(frozen=True)
 class Layer:
     """One of the renders that the picture is put together from."""
@@ -38,6 +36,9 @@ class Layer:
     opacity: float = 1.0
 
 
+#: Where the camera stands: in front (Blender's front is -Y), to the left and above.
+VIEW = (-0.62, -1.0, 0.48)
+BACKGROUND = (0.955, 0.957, 0.962)
 #: From back to front. A soft shadow needs few pixels, and is by far the dearest to render.
 LAYERS = (
     Layer(("floor", "model"), "floor", coarseness=4, opacity=0.6),
@@ -223,7 +224,7 @@ def _add_camera(scene: bpy.types.Scene, points: np.ndarray, view: Sequence[float
                 made: list[bpy.types.ID]) -> None:
     """A camera that sees all points, as near as it can."""
     camera = bpy.data.cameras.new("camera")
-    camera.lens, camera.clip_end = 70.0, 1e6
+    camera.lens = 70.0
     turn = Vector(view).to_track_quat("Z", "Y").to_matrix()
     margin = 1.08
     x, y, z = (points @ np.array(turn)).T
