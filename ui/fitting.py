@@ -137,7 +137,6 @@ class Room:
                 expand = kind.identifier in expanded and self.less(_NAMES * self.width)._has_choices(kind)
                 (column.row() if expand else column).prop(data, kind.identifier, expand=expand)
 
-
     def _has_choices(self, kind: bpy.types.EnumProperty) -> bool:
         """Whether all choices of a property fit beside each other, each as wide as the widest."""
         words = [iface_(item.name, kind.translation_context) for item in kind.enum_items]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ...core.arrays.components import components
 from ...core.steps import Steps
 from .. import bridge
 from ..pieces import piece_checks
@@ -130,8 +131,6 @@ def _beyond(joint: Joint, wanted: Wanted, receives: bool) -> tuple[float, float]
 
 def _topology(mesh: bpy.types.Mesh) -> tuple[int, int]:
     """How many bodies the faces of a mesh make, and its Euler characteristic."""
-    from ...core.arrays.components import components
-
     ends = mesh_arrays.edge_ends(mesh)
     count, _ = components(len(mesh.vertices), *ends.T)
     return count, len(mesh.vertices) - len(ends) + len(mesh.polygons)

@@ -18,7 +18,21 @@ if TYPE_CHECKING:
 
 
 class PieceSurface:
-    """A piece for distances, for what is inside, and with the holes that it will have."""
+    """A piece for distances, for what is inside, and with the holes that it will have.
+
+    Attributes
+    ----------
+    points : (n, 3) float64
+        In units of the world.
+    triangles : (t, 3) int32
+    polygon : (t,) int32
+        The face of the mesh that each triangle lies in.
+    is_cap : (t,) bool
+        Whether that is one of a cap.
+    whole, sides : BVHTree
+        All triangles, and those of no cap.
+    holes : list of BVHTree
+    """
 
     def __init__(self, mesh: bpy.types.Mesh, stretch: np.ndarray) -> None:
         self.points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
@@ -39,7 +53,7 @@ class PieceSurface:
 
 
 class Side:
-    """A piece as seen from one of its cuts: all of its surface but the cap of that cut; see joint_places.Body."""
+    """A piece as seen from one of its cuts, without the cap of that cut: a Body of core.uses.joints.room."""
 
     def __init__(self, surfaces: dict[int, PieceSurface], cut: Cut, side: int) -> None:
         surface = surfaces[cut.keys[side]]
@@ -68,7 +82,7 @@ class Side:
         count, step = 0, 1e-6 * self._size
         while True:
             place, _, _, _ = self._whole.ray_cast(point, way)
-            if place is None or count > 1000:
+            if place is None or count > 1000:  # one may lie in a face
                 return count
             count += 1
             point = [x + step * d for x, d in zip(place, way, strict=True)]

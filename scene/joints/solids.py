@@ -39,7 +39,7 @@ def dowel(joint: Joint, wanted: Wanted, to_mesh: np.ndarray) -> bpy.types.Mesh:
 
 
 def with_solids(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tuple[list[Solid], str]],
-             to_mesh: np.ndarray, patient: bool) -> bpy.types.Mesh:
+                to_mesh: np.ndarray, patient: bool) -> bpy.types.Mesh:
     """A mesh with solids added or taken away, which are caps.
 
     to_mesh : (3, 3), from the world to the mesh. patient : whether the solver is to expect crossings and holes.

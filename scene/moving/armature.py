@@ -222,15 +222,15 @@ def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.O
 
 
 def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
-               skeleton: Skeleton, smooth: Weights) -> Weights:
+               found: Skeleton, smooth: Weights) -> Weights:
     """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
     from ...core.uses.moving.skinning import Weights, limited
 
-    copy = mesh_arrays.mesh_of(skeleton.table, NAME) if skeleton.is_half else part_meshes.plain_copy(obj.data)
+    copy = mesh_arrays.mesh_of(found.table, NAME) if found.is_half else part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
         twin.vertex_groups.clear()
-        placing.put(twin, rig.matrix_world if skeleton.is_half else placing.world_matrix(obj))
+        placing.put(twin, rig.matrix_world if found.is_half else placing.world_matrix(obj))
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             for each in (twin, rig):
@@ -249,8 +249,8 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
         for vertex in copy.vertices:  # groups cannot be read in bulk
             for entry in vertex.groups:
                 mass[vertex.index, column[entry.group]] = entry.weight
-    found, known = limited(mass), mass.any(axis=1, keepdims=True)
-    return Weights(np.where(known, found.bone, smooth.bone), np.where(known, found.weight, smooth.weight))
+    own, known = limited(mass), mass.any(axis=1, keepdims=True)
+    return Weights(np.where(known, own.bone, smooth.bone), np.where(known, own.weight, smooth.weight))
 
 
 def _write_weights(obj: bpy.types.Object, names: list[str], weights: Weights) -> None:

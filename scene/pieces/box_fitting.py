@@ -15,6 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
 
+from ...core.arrays.components import components
 from ...core.arrays.vectors import across
 from ..errors import SceneError
 from ..reading import mesh_arrays, mesh_groups
@@ -291,8 +292,6 @@ def _half(mesh: bpy.types.Mesh, bm: BMesh, kept: np.ndarray, cap: np.ndarray, la
 
 def _bodies(mesh: bpy.types.Mesh) -> list[bpy.types.Mesh]:
     """A mesh for each body of a mesh, which is removed; all in one if some of them are hollows in others."""
-    from ...core.arrays.components import components
-
     table = mesh_arrays.corner_table(mesh)
     pairs, _ = table.face_pairs()
     count, label = components(table.n_faces, *pairs.T)

@@ -106,8 +106,7 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
         bpy.data.meshes.remove(mesh)
         raise SceneError(
             rpt_("The modifiers of {name} make {n} {n:face that belongs|faces that belong} to no part. Apply the "
-                 "modifiers "
-                 "and decompose again.").format(name=obj.name, n=Count(lost)))
+                 "modifiers and decompose again.").format(name=obj.name, n=Count(lost)))
     return mesh, numbers
 
 

@@ -19,6 +19,9 @@ from ..errors import SceneError
 from ..pieces import origins
 from ..reading import mesh_arrays
 
+# Up to so many parts there is no need to fold the small ones.
+_SHORT = 12
+
 
 def check_parts(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the parts of an object can be worked on."""
@@ -102,10 +105,6 @@ def choose_more(mesh: bpy.types.Mesh, numbers: list[int], mode: str) -> None:
         choose(mesh, numbers)
     elif mode != "ADD":
         mark(mesh, "NONE")
-
-
-# Up to so many parts there is no need to fold the small ones.
-_SHORT = 12
 
 
 def small_parts(mesh: bpy.types.Mesh) -> list[bpy.types.PropertyGroup]:

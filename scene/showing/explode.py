@@ -134,11 +134,11 @@ def _with_all_numbered(made: _Nodes, geometry: bpy.types.NodeSocket, part: bpy.t
     made.link(part, next(socket for socket in number.inputs if socket.name == "Value" and socket.enabled))
     made.link(nearest.outputs[0], number.inputs["Index"])
     # Written, and only where it is missing: so the nearest are not looked for on meshes whose faces all have numbers.
-    store = made.new("GeometryNodeStoreNamedAttribute", "Number", data_type="INT", domain="FACE", inputs=[geometry])
-    made.link(has_none.outputs[0], store.inputs["Selection"])
+    written = made.new("GeometryNodeStoreNamedAttribute", "Number", data_type="INT", domain="FACE", inputs=[geometry])
+    made.link(has_none.outputs[0], written.inputs["Selection"])
     made.link(next(socket for socket in number.outputs if socket.enabled),
-              next(socket for socket in store.inputs if socket.name == "Value" and socket.enabled))
-    return store.outputs[0]
+              next(socket for socket in written.inputs if socket.name == "Value" and socket.enabled))
+    return written.outputs[0]
 
 
 def _drive(socket: bpy.types.NodeSocket, obj: bpy.types.Object) -> None:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ....core.arrays.components import components
+from ....core.arrays.indexing import renumbered
 from ....core.mesh.corners import edge_labels
 from ....core.uses.caps.rims import nested_rims
 from ....core.uses.caps.surfaces import common_order
@@ -115,9 +117,6 @@ def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:
 
     A hole goes round borders that there were before, too, if the cut ends there.
     """
-    from ....core.arrays.components import components
-    from ....core.arrays.indexing import renumbered
-
     border = np.bincount(piece.corner_edge, minlength=len(piece.ends)) == 1
     on = np.zeros(len(piece.points), bool)
     on[piece.ends[opened]] = True
