@@ -10,6 +10,7 @@ from mathutils import Vector
 from ..scene import redraw
 
 MARGIN = 1.3  # what is seen beyond a thing, as a share of it
+SENSOR = 36.0  # mm, the width of the sensor by which the lens of a viewport is told, of which it shows twice as much
 
 
 def look_at(context: bpy.types.Context, low: np.ndarray, high: np.ndarray) -> None:
@@ -22,6 +23,6 @@ def look_at(context: bpy.types.Context, low: np.ndarray, high: np.ndarray) -> No
     for space in spaces:
         view = space.region_3d
         view.view_location = Vector(((low + high) / 2).tolist())
-        # The sensor of a viewport is 32 mm wide, and shows twice what a camera of its lens would.
-        view.view_distance = max(MARGIN * float(np.linalg.norm(high - low)) * space.lens / 36.0, 1e-6)
+        # Half of the width is enough: a view may be half as high as wide.
+        view.view_distance = max(MARGIN * float(np.linalg.norm(high - low)) * space.lens / SENSOR, 1e-6)
     redraw.viewports()
