@@ -16,6 +16,7 @@ import bpy
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+from spot import spot
 
 
 def steps():
@@ -71,7 +72,7 @@ def press_decompose(seen):
     """Press the large button at the top and wait for the parts."""
     yield from pointer.push("reeb_parts.decompose")
     start = time.monotonic()
-    yield from pointer.until(lambda: "reeb_part" in model().data.attributes, pointer.PATIENCE)
+    yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     seen["seconds"] = time.monotonic() - start
     if seen["seconds"] >= pointer.PATIENCE:
         pointer.shot("failed.png")
@@ -82,7 +83,7 @@ def press_decompose(seen):
 
 def repeat_hulls(seen):
     """Make hulls of the scaled model, and make them again as the panel of what was done last does; undo all of it."""
-    model().scale = (2.0, 1.0, 0.5)
+    spot().scale = (2.0, 1.0, 0.5)
     bpy.ops.ed.undo_push(message="Scale")
     bpy.ops.reeb_parts.hulls("EXEC_DEFAULT", True)
     seen["hulls"] = hulls()
@@ -99,16 +100,16 @@ def rename_in_edit_mode(seen):
     """Choose a part in Edit Mode, rename it, and change the name as the panel of what was done last does; undo that."""
     with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
         bpy.ops.object.mode_set("INVOKE_DEFAULT", True, mode="EDIT")
-        result = model().data.reeb_parts
+        result = spot().data.reeb_parts
         result.active = 2
         result.parts[1].selected = True
         bpy.ops.ed.undo_push(message="Click")  # as Blender does after one in the list
         bpy.ops.reeb_parts.rename("EXEC_DEFAULT", True, new_name="One")
         bpy.context.window_manager.operators[-1].properties.new_name = "Two"
         bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
-        seen["names"] = [part.name for part in model().data.reeb_parts.parts]
+        seen["names"] = [part.name for part in spot().data.reeb_parts.parts]
         bpy.ops.ed.undo()
-        result = model().data.reeb_parts
+        result = spot().data.reeb_parts
         seen["chosen"] = [result.active, [part.selected for part in result.parts][:3]]
         for _ in range(2):
             bpy.ops.ed.undo()
@@ -147,7 +148,7 @@ def pieces():
 
 def scene_facts():
     """What the test compares between the steps."""
-    obj = model()
+    obj = spot()
     mesh = obj.data
     return {
         "vertices": len(mesh.vertices),
@@ -160,8 +161,3 @@ def scene_facts():
         "collections": sorted(collection.name for collection in bpy.data.collections),
         "objects": sorted(obj.name for obj in bpy.data.objects),
     }  # fmt: skip
-
-
-def model():
-    """The imported object, looked up anew since undo replaces it."""
-    return bpy.data.objects["spot"]

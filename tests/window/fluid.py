@@ -16,6 +16,7 @@ from mathutils import Quaternion
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+from spot import mesh
 
 CUTS = 18  # of every edge: 1,060,000 vertices
 SECONDS = float(os.environ.get("FLUID_SECONDS", "15"))  # how long it is watched
@@ -116,8 +117,3 @@ def rates():
     gaps = sorted(b - a for a, b in zip(drawn, drawn[1:], strict=False))
     return {"count": len(drawn), "per second": len(gaps) / sum(gaps), "longest": gaps[-1],
             "95 %": gaps[int(0.95 * len(gaps))]}
-
-
-def mesh():
-    """Looked up anew, since undo replaces it."""
-    return bpy.data.objects["spot"].data

@@ -14,6 +14,7 @@ from mathutils import Vector
 sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
 from snapshot import changes, snapshot
+from spot import mesh, spot
 
 # In pixels, where Blender's own popups have something: from a chip to the field of its popup; from a right
 # click to an entry of the menu.
@@ -362,10 +363,6 @@ def graph_shown():
     return bpy.data.collections["Reeb Graph spot"].objects[0].visible_get()
 
 
-def spot():
-    return bpy.data.objects["spot"]
-
-
 def press_entry(index, key, button=1):
     """Click something in an entry of the list; where it is."""
     place = yield from pointer.entry(index, key)
@@ -379,12 +376,7 @@ def facts():
     return {
         "detail": round(result.detail, 4),
         "shares": {part.name: round(part.share, 4) for part in result.parts},
-        "groups": sorted(group.name for group in bpy.data.objects["spot"].vertex_groups),
+        "groups": sorted(group.name for group in spot().vertex_groups),
         "attributes": sorted(a.name for a in mesh().attributes),
         "objects": sorted(obj.name for obj in bpy.data.objects),
     }
-
-
-def mesh():
-    """Looked up anew, since undo replaces it."""
-    return bpy.data.objects["spot"].data

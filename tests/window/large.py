@@ -15,6 +15,7 @@ import numpy as np
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+from spot import mesh
 
 
 def steps():
@@ -86,11 +87,6 @@ def separated(seen):
 def jobs():
     """The extension's module, wherever it is installed."""
     return next(module for name, module in sys.modules.items() if name.endswith("reeb_parts.scene.runs.jobs"))
-
-
-def mesh():
-    """Looked up anew, since undo replaces it."""
-    return bpy.data.objects["spot"].data
 
 
 def facts():

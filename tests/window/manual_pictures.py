@@ -17,6 +17,7 @@ from mathutils import Quaternion, Vector
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+from spot import number, spot
 
 HEX = (99, 299)  # from a chip to the field of its popup
 BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
@@ -280,21 +281,16 @@ def exported():
     folder = Path(tempfile.gettempdir()) / "Spot"
     folder.mkdir(exist_ok=True)
     yield from pointer.search("Export Parts to Files")
-    yield from pointer.until(lambda: browser() is not None)
+    yield from pointer.until(lambda: pointer.browser() is not None)
     yield 0.5
-    browser().spaces.active.params.directory = os.fsencode(str(folder))
+    pointer.browser().spaces.active.params.directory = os.fsencode(str(folder))
     yield 0.7
-    left, top = pointer.from_top(pointer.region("WINDOW", browser()).x, browser().y + browser().height)
+    area = pointer.browser()
+    left, top = pointer.from_top(pointer.region("WINDOW", area).x, area.y + area.height)
     pointer.shot("export.png", (left, top, 1280, top + 135))
     yield from pointer.tap("Escape")
     yield 0.7
     folder.rmdir()
-
-
-def browser():
-    """The area that shows files, if there is one."""
-    areas = bpy.context.window.screen.areas
-    return next((area for area in areas if area.type == "FILE_BROWSER"), None)
 
 
 def folded_out():
@@ -360,12 +356,3 @@ def look(distance=1.0, middle=(0.0, 0.0, 0.0)):
 
 def choose(name):
     spot().data.reeb_parts.active = spot().data.reeb_parts.parts.find(name)
-
-
-def number(name):
-    return spot().data.reeb_parts.parts[name].number
-
-
-def spot():
-    """Looked up anew, since undo replaces it."""
-    return bpy.data.objects["spot"]

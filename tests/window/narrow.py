@@ -13,6 +13,7 @@ import bpy
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+from spot import spot
 
 SEEN = {}
 ACROSS = 4  # places in a row at which Blender is asked what is there
@@ -23,12 +24,12 @@ def steps():
     """One step after the other; yields the seconds to wait."""
     yield from pointer.spot_alone(maximised=True)
     yield from pointer.push("reeb_parts.decompose")
-    yield from pointer.until(lambda: len(model().data.reeb_parts.parts), pointer.PATIENCE)
+    yield from pointer.until(lambda: len(spot().data.reeb_parts.parts), pointer.PATIENCE)
     yield 1.0
     bpy.ops.reeb_parts.suggest_names()
     yield 0.5
     bpy.context.preferences.use_preferences_save = False  # the next driver speaks English
-    SEEN["parts"] = len(model().data.reeb_parts.parts)
+    SEEN["parts"] = len(spot().data.reeb_parts.parts)
     SEEN["shares"] = yield from shares_of("front piece", "front pieces", "front pieces 12")
     pointer.shot("wide.png")
     for width, code in LANGUAGES.items():
@@ -42,7 +43,7 @@ def steps():
 
 def shares_of(*names):
     """With which names the largest part has its share in the list: while all rows are seen, and while it scrolls."""
-    part, found = max(model().data.reeb_parts.parts, key=lambda part: part.share), {}
+    part, found = max(spot().data.reeb_parts.parts, key=lambda part: part.share), {}
     (panel,) = (module for name, module in sys.modules.items() if name.endswith("reeb_parts.ui.panel"))
     own, asked, before, most = panel._has_share, {}, part.name, panel.MOST_ROWS
     panel._has_share = lambda room, name, *rest: asked.setdefault(name, own(room, name, *rest))
@@ -115,7 +116,3 @@ def words():
     }
     blf.size(0, bpy.context.preferences.ui_styles[0].widget.points * bpy.context.preferences.system.ui_scale)
     return {name: blf.dimensions(0, translated(text, context))[0] for name, (text, context) in said.items()}
-
-
-def model():
-    return bpy.data.objects["spot"]

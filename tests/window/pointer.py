@@ -157,6 +157,12 @@ def view_area():
     return next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
 
 
+def browser():
+    """The area that shows files, if there is one."""
+    areas = bpy.context.window.screen.areas
+    return next((area for area in areas if area.type == "FILE_BROWSER"), None)
+
+
 def region(kind, area=None):
     return next(region for region in (area or view_area()).regions if region.type == kind)
 

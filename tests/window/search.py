@@ -15,6 +15,7 @@ import bpy
 sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
 from snapshot import activate, changes, snapshot
+from spot import spot
 
 
 @dataclass(frozen=True)
@@ -149,21 +150,15 @@ def confirm(obj):
 
 def to_folder(obj):
     """In the file browser: the folder, Enter."""
-    yield from pointer.until(lambda: browser() is not None)
+    yield from pointer.until(lambda: pointer.browser() is not None)
     yield 0.5
     folder = pointer.OUT / "export"
     folder.mkdir(exist_ok=True)
-    browser().spaces.active.params.directory = os.fsencode(str(folder))
+    pointer.browser().spaces.active.params.directory = os.fsencode(str(folder))
     yield 0.5
     pointer.shot("export.png")
     yield from pointer.tap("Return")
     yield from pointer.until(lambda: any(folder.iterdir()))
-
-
-def browser():
-    """The area that shows files, if there is one."""
-    areas = bpy.context.window.screen.areas
-    return next((area for area in areas if area.type == "FILE_BROWSER"), None)
 
 
 MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT")
@@ -266,8 +261,3 @@ def look():
     """The file as it is, with all that depends on what was changed."""
     bpy.context.view_layer.update()
     return snapshot()
-
-
-def spot():
-    """Looked up anew, since undo replaces it."""
-    return bpy.data.objects["spot"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the drivers that use tools on the bundled model note: its parts, what is at work, what undo leaves.
+"""The bundled model in a driver, and what those that use tools on it note: parts, what is at work, what undo leaves.
 
 Imported by them, inside Blender, beside pointer.py.
 """
@@ -60,3 +60,8 @@ def number(name):
 def spot():
     """Looked up anew, since undo replaces it."""
     return bpy.data.objects["spot"]
+
+
+def mesh():
+    """Looked up anew, since undo replaces it."""
+    return bpy.data.objects["spot"].data

@@ -19,8 +19,6 @@ import pointer
 from snapshot import snapshot
 from spot import SEEN, at_work, chosen, differences, note, number, shares, spot, undo_to
 
-TOOL = "reeb_parts.parts"
-
 
 def steps():
     """One step after the other; yields the seconds to wait."""
@@ -314,7 +312,6 @@ def hidden_parts():
     for polygon, item in zip(spot().data.polygons, spot().data.attributes["reeb_part"].data, strict=True):
         numbers.setdefault(item.value, set()).add(polygon.hide)
     return sorted(part.name for part in spot().data.reeb_parts.parts if numbers[part.number] == {True})
-
 
 
 def pointed():

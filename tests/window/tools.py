@@ -465,9 +465,6 @@ def deleted():
         note(f"deletion within {name} undone", differences(before))
 
 
-
-
-
 def switched_off():
     """The extension is switched off, as an update does, while a stroke has yet to be confirmed and a run goes on."""
     bpy.context.scene.reeb_parts.base_spacing *= 1.01  # nothing of this is known
@@ -488,7 +485,6 @@ def switched_off():
 def choose(name):
     result = spot().data.reeb_parts
     result.active = result.parts.find(name)
-
 
 
 def on_arc(name):

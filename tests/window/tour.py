@@ -18,6 +18,7 @@ from mathutils import Euler, Quaternion, Vector
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+from spot import spot
 
 FRAMES = []  # file, seconds, place of the pointer, whether it is pressed
 AT = [480, 300]  # the pointer
@@ -229,7 +230,3 @@ def boned():
         frame(0.3)
     yield from say("The mesh itself is never changed; Clear Parts takes off it all that was written")
     frame(4.0)
-
-
-def spot():
-    return bpy.data.objects["spot"]

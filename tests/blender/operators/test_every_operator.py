@@ -218,10 +218,6 @@ CASES = {
 }  # fmt: skip
 
 
-def in_mode(mode):
-    return lambda obj: bpy.ops.object.mode_set(mode=mode)
-
-
 def duplicated(obj):
     bpy.ops.object.duplicate(linked=True)
 

@@ -47,7 +47,6 @@ def test_a_chosen_mark_has_a_bright_rim_around_the_dark_one(markers):
     assert shades[0].min() > 0.8
 
 
-
 def test_kinds_look_different(markers):
     assert set(markers.SHAPES) == {"minimum", "saddle", "maximum"}
     assert len({len(outline) for outline in markers.SHAPES.values()}) == 3

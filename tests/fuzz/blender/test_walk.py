@@ -32,7 +32,6 @@ SETTINGS = ("decompose", "separate", "unwrap", "armature", "hulls", "rigid_bodie
 BOUNDS = {"n_slabs": (3, 60), "n_clusters": (2, 20), "bed": (1000.0, 5000.0)}
 
 
-
 class Walk:
     """A scene with an object, and steps that a user could take in it."""
 

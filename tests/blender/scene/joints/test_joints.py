@@ -2,7 +2,6 @@
 """Joints between separated parts: they fit, they leave walls, and what they cannot hold in stays as it was."""
 
 import importlib
-import json
 
 import bpy
 import numpy as np
@@ -18,10 +17,6 @@ MILLIMETER = 1e-3  # of Blender's default scene
 
 def dowels(name="Tree"):
     return [o for o in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_dowel" in o]
-
-
-def check_of(piece):
-    return json.loads(piece["reeb_parts_check"])
 
 
 def tree_of(obj, only=None):
