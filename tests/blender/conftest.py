@@ -70,6 +70,32 @@ def obj(make, tree):
     return make(tree)
 
 
+@pytest.fixture
+def result(obj):
+    """What is stored with the tree once it is decomposed."""
+    bpy.ops.reeb_parts.decompose()
+    return obj.data.reeb_parts
+
+
+@pytest.fixture
+def settings(obj):
+    """The settings of the scene once the tree is decomposed by the method of few parts."""
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    return bpy.context.scene.reeb_parts
+
+
+@pytest.fixture
+def scene_module(package):
+    """A function that gives a module of the extension's scene by its name."""
+    return lambda name: importlib.import_module(f"{package}.scene.{name}")
+
+
+@pytest.fixture
+def parameters(package):
+    """The class of the parameters."""
+    return importlib.import_module(f"{package}.core.parameters").Parameters
+
+
 _status = 0
 
 

@@ -9,11 +9,6 @@ import bpy
 import pytest
 
 
-@pytest.fixture
-def parameters(package):
-    return importlib.import_module(f"{package}.core.parameters").Parameters
-
-
 @pytest.mark.parametrize("where", ["scene", "operator"])
 def test_properties_mirror_the_parameters(parameters, where):
     if where == "scene":

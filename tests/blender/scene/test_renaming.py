@@ -1,19 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Thousands of data blocks get names and go again in a time in proportion to their number."""
 
-import importlib
 import time
 
 import bpy
-import pytest
 
 COUNT = 8000
-
-
-@pytest.fixture
-def scene_module(package):
-    """A function that gives a module of the extension's scene by its name."""
-    return lambda name: importlib.import_module(f"{package}.scene.{name}")
 
 
 def materials():

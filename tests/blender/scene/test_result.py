@@ -13,12 +13,6 @@ from results import numbers
 from snapshot import snapshot
 
 
-@pytest.fixture
-def result(obj):
-    bpy.ops.reeb_parts.decompose()
-    return obj.data.reeb_parts
-
-
 def corner_colors(mesh):
     values = np.zeros(4 * len(mesh.loops), np.float32)
     mesh.color_attributes["Reeb Parts"].data.foreach_get("color_srgb", values)

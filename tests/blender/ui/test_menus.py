@@ -10,12 +10,6 @@ import pytest
 from snapshot import activate
 
 
-@pytest.fixture
-def settings(obj):
-    bpy.ops.reeb_parts.decompose(method="berretti")
-    return bpy.context.scene.reeb_parts
-
-
 def test_parameters_are_set_back_to_the_preset(settings):
     assert not settings.differs_from_preset()
     settings.detail = 0.8

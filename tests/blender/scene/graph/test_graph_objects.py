@@ -10,12 +10,6 @@ import pytest
 from snapshot import activate
 
 
-@pytest.fixture
-def settings(obj):
-    bpy.ops.reeb_parts.decompose(method="berretti")
-    return bpy.context.scene.reeb_parts
-
-
 def layer_of(name):
     """The graph's collection in the view layer."""
     return bpy.context.view_layer.layer_collection.children[name]

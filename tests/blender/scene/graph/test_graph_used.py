@@ -6,11 +6,8 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+from roles import with_role
 from snapshot import activate, changes, check_undo, snapshot
-
-
-def with_role(role):
-    return [item for item in bpy.data.objects if item.get("reeb_parts_role") == role]
 
 
 @pytest.fixture

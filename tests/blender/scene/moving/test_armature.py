@@ -8,25 +8,21 @@ import shapes
 from mathutils import Euler
 from places import seen_points
 from results import numbers as numbers_of
+from roles import the_rig
 from scipy.spatial import cKDTree
 from snapshot import activate, check_undo, snapshot
 
 DEFORM = "DEF-"
 
 
-def rig_of(obj):
-    (rig,) = [o for o in bpy.data.objects if o.type == "ARMATURE" and "reeb_parts_role" in o]
-    return rig
-
-
 def test_a_bone_for_each_part_in_one_tree(obj):
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
-    bones = rig_of(obj).data.bones
+    bones = the_rig().data.bones
     assert sorted(bones.keys()) == [DEFORM + part.name for part in obj.data.reeb_parts.parts]
     assert sum(bone.parent is None for bone in bones) == 1
     assert min(bone.length for bone in bones) > 0.01
-    assert [modifier.object for modifier in obj.modifiers] == [rig_of(obj)]
+    assert [modifier.object for modifier in obj.modifiers] == [the_rig()]
     bpy.ops.reeb_parts.armature(deform=False)
     assert not obj.modifiers
 
@@ -35,10 +31,10 @@ def test_a_bone_for_each_part_in_one_tree(obj):
 def test_bones_of_a_posed_figure_are_there_on_both_sides(make, detail):
     """No plane says so, but the faces' images do."""
     vertices, faces = shapes.mirrored_figure()
-    obj = make(shapes.Shape(shapes.posed(vertices), faces))
+    make(shapes.Shape(shapes.posed(vertices), faces))
     bpy.ops.reeb_parts.decompose(detail=detail)
     bpy.ops.reeb_parts.armature()
-    bones = rig_of(obj).data.bones
+    bones = the_rig().data.bones
     assert sum(bone.name.endswith(".L") for bone in bones) > 1
     for bone in bones:
         image = bones[bpy.utils.flip_name(bone.name)]
@@ -51,7 +47,7 @@ def test_a_bone_starts_at_the_cut_and_ends_in_the_tip(make):
     obj.scale, obj.location, obj.rotation_euler = (1, 2, -1), (3, 4, 5), (0.3, 0.5, 0.7)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    rig, points, numbers = rig_of(obj), seen_points(obj), numbers_of(obj.data)
+    rig, points, numbers = the_rig(), seen_points(obj), numbers_of(obj.data)
     assert tuple(rig.scale) == pytest.approx((1, 1, 1))
     for part in obj.data.reeb_parts.parts:
         bone = rig.data.bones[DEFORM + part.name]
@@ -75,7 +71,7 @@ def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     before = seen_points(obj)
     bpy.ops.reeb_parts.armature(weights="PARTS")
     assert seen_points(obj) == pytest.approx(before, abs=1e-4)
-    rig = rig_of(obj)
+    rig = the_rig()
     leaf = next(bone for bone in rig.pose.bones if bone.parent and not bone.children)
     leaf.rotation_mode = "XYZ"
     leaf.rotation_euler = Euler((0.5, 0, 0))
@@ -102,7 +98,7 @@ def test_pieces_are_posed_as_the_whole(obj, weights):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature(weights=weights)
     bpy.ops.reeb_parts.separate(cut="FACES", hide=False)
-    bone = next(bone for bone in rig_of(obj).pose.bones if bone.parent and not bone.children)
+    bone = next(bone for bone in the_rig().pose.bones if bone.parent and not bone.children)
     bone.rotation_mode, bone.rotation_euler = "XYZ", Euler((0.5, 0.0, 0.0))
     whole = cKDTree(seen_points(obj))
     for piece in obj.reeb_parts_made.pieces.objects:
@@ -116,7 +112,7 @@ def test_pieces_are_posed_as_the_whole(obj, weights):
 
 def weights_of(obj):
     """Weight of each vertex in the group of each bone, and what all are called."""
-    names = [name for name in obj.vertex_groups.keys() if name in rig_of(obj).data.bones]
+    names = [name for name in obj.vertex_groups.keys() if name in the_rig().data.bones]
     column = {obj.vertex_groups[name].index: i for i, name in enumerate(names)}
     found = np.zeros((len(obj.data.vertices), len(names)))
     for vertex in obj.data.vertices:
@@ -149,7 +145,7 @@ def test_bent_by_60_degrees_no_face_is_turned_over(obj, mirrored):
     before = seen_points(obj)
     bpy.ops.reeb_parts.armature()
     assert seen_points(obj) == pytest.approx(before, abs=1e-4)
-    rig, faces = rig_of(obj), np.array([polygon.vertices[:] for polygon in obj.data.polygons])
+    rig, faces = the_rig(), np.array([polygon.vertices[:] for polygon in obj.data.polygons])
     bones = [bone for bone in rig.pose.bones if bone.parent]
     assert bones
     for bone in bones:
@@ -178,7 +174,7 @@ def test_a_group_of_the_user_is_left_alone(obj):
     mine = obj.vertex_groups.new(name=name)
     mine.add([0, 1, 2], 0.25, "REPLACE")
     bpy.ops.reeb_parts.armature()
-    assert name not in rig_of(obj).data.bones
+    assert name not in the_rig().data.bones
     assert weights_of(obj)[0].sum(axis=1) == pytest.approx(1, abs=1e-6)
     bpy.ops.reeb_parts.clear()
     assert obj.vertex_groups.keys() == [name]
@@ -193,22 +189,22 @@ def test_groups_of_long_names_can_be_read(obj):
         part.name = 21 * "足"
     bpy.ops.reeb_parts.armature()
     groups = obj.vertex_groups.keys()
-    assert sorted(rig_of(obj).data.bones.keys()) == sorted(name for name in groups if name.startswith(DEFORM))
+    assert sorted(the_rig().data.bones.keys()) == sorted(name for name in groups if name.startswith(DEFORM))
     assert len(groups) == 2 * len(obj.data.reeb_parts.parts) > 2
 
 
 def test_groups_are_made_if_they_are_not_there(obj):
     bpy.ops.reeb_parts.decompose(vertex_groups=False)
     bpy.ops.reeb_parts.armature(weights="PARTS")
-    assert sorted(rig_of(obj).data.bones.keys()) == obj.vertex_groups.keys()
+    assert sorted(the_rig().data.bones.keys()) == obj.vertex_groups.keys()
     assert len(obj.vertex_groups) == len(obj.data.reeb_parts.parts)
 
 
 def test_loose_parts_have_roots_of_their_own(make):
-    obj = make(shapes.together(shapes.tube_tree(), shapes.moved(shapes.icosphere(2), (9, 0, 0))))
+    make(shapes.together(shapes.tube_tree(), shapes.moved(shapes.icosphere(2), (9, 0, 0))))
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    assert sum(bone.parent is None for bone in rig_of(obj).data.bones) == 2
+    assert sum(bone.parent is None for bone in the_rig().data.bones) == 2
 
 
 @pytest.mark.parametrize("kind", ["LIMBS", "PARTS"])
@@ -270,11 +266,11 @@ def test_twice_is_once_and_a_used_armature_is_kept(obj):
     once = snapshot()
     bpy.ops.reeb_parts.armature(deform=True)
     assert snapshot() == once
-    rig = rig_of(obj)
+    rig = the_rig()
     rig.location.x = 1
     bpy.ops.reeb_parts.armature(deform=True)
     assert rig in bpy.data.objects[:]
-    assert rig_of(obj) != rig
+    assert the_rig() != rig
     assert obj.modifiers.keys() == ["Reeb Parts Armature"]
 
 
@@ -294,12 +290,12 @@ USE = {
 def test_whatever_is_done_to_an_armature_it_is_kept(obj, use):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature(deform=True)
-    rig = rig_of(obj)
+    rig = the_rig()
     USE[use](rig)
     activate(obj)
     bpy.ops.reeb_parts.armature(deform=True)
     assert rig in bpy.data.objects[:]
-    assert rig_of(obj) != rig
+    assert the_rig() != rig
 
 
 def painted(obj):
@@ -318,15 +314,15 @@ def test_weights_that_were_painted_stay_with_their_armature(obj):
     """Another run replaced them, with hours of work."""
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    rig, weights = rig_of(obj), painted(obj)
+    rig, weights = the_rig(), painted(obj)
     bones = rig.data.bones.keys()
     bpy.ops.reeb_parts.armature()
     assert rig in bpy.data.objects[:]
-    assert rig_of(obj) != rig
+    assert the_rig() != rig
     assert rig.data.bones.keys() == bones
-    assert not set(bones) & set(rig_of(obj).data.bones.keys())
+    assert not set(bones) & set(the_rig().data.bones.keys())
     assert weights.items() <= weights_by_name(obj).items()
-    new = rig_of(obj)
+    new = the_rig()
     bpy.ops.reeb_parts.armature()  # of the new ones nothing was changed
     assert new not in bpy.data.objects[:]
     assert weights.items() <= weights_by_name(obj).items()
@@ -338,7 +334,7 @@ def test_weights_that_were_painted_stay_with_their_armature(obj):
 def test_clear_leaves_weights_that_were_painted_and_the_modifier(obj, capfd, tmp_path):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    rig, weights = rig_of(obj).name, painted(obj)
+    rig, weights = the_rig().name, painted(obj)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "rig.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "rig.blend"))
     obj = bpy.data.objects["Tree"]
@@ -357,7 +353,7 @@ def test_clear_leaves_weights_that_were_painted_and_the_modifier(obj, capfd, tmp
 def test_weights_of_an_edited_mesh_stay_if_the_armature_was_worked_on(obj, posed):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    rig = rig_of(obj)
+    rig = the_rig()
     if posed:
         rig.pose.bones[0].location = (0, 0, 1)
     bpy.ops.object.mode_set(mode="EDIT")
@@ -370,7 +366,7 @@ def test_weights_of_an_edited_mesh_stay_if_the_armature_was_worked_on(obj, posed
     assert (rig in bpy.data.objects[:]) == posed
     assert (weights.items() <= weights_by_name(obj).items()) == posed
     names = {DEFORM + part.name for part in obj.data.reeb_parts.parts}
-    assert (set(rig_of(obj).data.bones.keys()) <= names) != posed
+    assert (set(the_rig().data.bones.keys()) <= names) != posed
 
 
 def test_a_modifier_that_was_given_another_armature_is_the_users(obj):
@@ -400,7 +396,7 @@ def test_clear_removes_the_modifier_and_leaves_the_armature(obj):
     bpy.ops.reeb_parts.armature(deform=True)
     bpy.ops.reeb_parts.clear()
     assert not obj.modifiers
-    assert rig_of(obj)
+    assert the_rig()
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])
@@ -410,7 +406,7 @@ def test_from_every_mode(obj, mode):
     bpy.ops.reeb_parts.armature()
     assert obj.mode == mode
     assert bpy.context.view_layer.objects.active == obj
-    assert len(rig_of(obj).data.bones) == len(obj.data.reeb_parts.parts)
+    assert len(the_rig().data.bones) == len(obj.data.reeb_parts.parts)
 
 
 def test_undo(obj):

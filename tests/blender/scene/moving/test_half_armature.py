@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Euler, Matrix
+from roles import the_rig
 from snapshot import check_undo
 
 DEFORM = "DEF-"
@@ -32,12 +33,7 @@ def rigged(obj, **options):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.suggest_names()
     assert bpy.ops.reeb_parts.armature(**options) == {"FINISHED"}
-    return rig_of()
-
-
-def rig_of():
-    (rig,) = [o for o in bpy.data.objects if o.type == "ARMATURE" and "reeb_parts_role" in o]
-    return rig
+    return the_rig()
 
 
 def seen(obj):
@@ -156,7 +152,7 @@ def test_a_name_with_a_side_is_that_of_the_side_that_is_there(half):
     arm = next(part for part in half.data.reeb_parts.parts if part.name == "arm.L")
     arm.name = "Arm.R"
     bpy.ops.reeb_parts.armature()
-    bones = rig_of().data.bones
+    bones = the_rig().data.bones
     assert bones[f"{DEFORM}Arm.R"].tail_local.x > 0 > bones[f"{DEFORM}Arm.L"].tail_local.x
 
 
@@ -175,15 +171,15 @@ def test_long_names_keep_their_sides(half):
     for part in half.data.reeb_parts.parts:
         part.name = f"{part.number}" + "a long name " * 5
     bpy.ops.reeb_parts.armature()
-    assert len(sided(rig_of())) == 4
+    assert len(sided(the_rig())) == 4
 
 
 def test_while_the_mirror_is_hidden_all_is_as_for_any_model(half):
     bpy.ops.reeb_parts.decompose()
     half.modifiers["Mirror"].show_viewport = False
     bpy.ops.reeb_parts.armature()
-    assert len(rig_of().data.bones) == len(half.data.reeb_parts.parts)
-    assert not sided(rig_of())
+    assert len(the_rig().data.bones) == len(half.data.reeb_parts.parts)
+    assert not sided(the_rig())
 
 
 def test_undo(half):
@@ -206,4 +202,4 @@ def test_a_half_in_many_parts_gets_its_bones(detail):
     bpy.context.object.modifiers.new("Mirror", "MIRROR")
     bpy.ops.reeb_parts.decompose(detail=detail)
     assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
-    assert 1 < len(rig_of().data.bones) < len(mesh.reeb_parts.parts)
+    assert 1 < len(the_rig().data.bones) < len(mesh.reeb_parts.parts)

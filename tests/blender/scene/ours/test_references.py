@@ -5,6 +5,7 @@ import importlib
 
 import bpy
 import pytest
+from roles import with_role
 from snapshot import activate, changes, check_undo, snapshot
 
 KEEP = {"hide": False}
@@ -42,10 +43,6 @@ def held():
 
 def made(obj):
     return obj.reeb_parts_made.pieces.objects[:]
-
-
-def with_role(role):
-    return [item for item in bpy.data.objects if item.get("reeb_parts_role") == role]
 
 
 WAYS = {

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams, face sets and materials after the fact: the same as if decompose had been asked for them."""
 
-import importlib
 import time
 
 import bpy
@@ -15,12 +14,6 @@ OPERATORS = {"seams": "seams", "face_sets": "face_sets", "materials": "materials
 
 def run(name, **options):
     return getattr(bpy.ops.reeb_parts, name)(**options)
-
-
-@pytest.fixture
-def scene_module(package):
-    """A function that gives a module of the extension's scene by its name."""
-    return lambda name: importlib.import_module(f"{package}.scene.{name}")
 
 
 @pytest.fixture

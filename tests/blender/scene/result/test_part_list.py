@@ -12,12 +12,6 @@ from mathutils import Euler, Vector
 
 
 @pytest.fixture
-def result(obj):
-    bpy.ops.reeb_parts.decompose()
-    return obj.data.reeb_parts
-
-
-@pytest.fixture
 def listed(package):
     return importlib.import_module(f"{package}.scene.result.part_list")
 

@@ -10,12 +10,6 @@ import shapes
 from snapshot import activate
 
 
-@pytest.fixture
-def result(obj):
-    bpy.ops.reeb_parts.decompose()
-    return obj.data.reeb_parts
-
-
 def levels(obj, package):
     store = importlib.import_module(f"{package}.scene.store")
     return store.load(obj.data).numbering.strong_levels().tolist()

@@ -38,11 +38,6 @@ def compute(package):
 
 
 @pytest.fixture
-def parameters(package):
-    return importlib.import_module(f"{package}.core.parameters").Parameters
-
-
-@pytest.fixture
 def read(package, make):
     """A function that makes objects of shapes, and gives what is decomposed of them."""
     read_shape = importlib.import_module(f"{package}.scene.bridge").read_shape
