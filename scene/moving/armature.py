@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ...core.uses.moving.skinning import Weights
 
 NAME = "Reeb Parts Armature"
+_ROLE = "armature"  # which is all that it stands for, see made_objects.StandsFor
 DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
 
 
@@ -129,24 +130,11 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     modifier = _modifier(obj)
     n_kept = int(_hand_over_weights(obj.data))
     _remove_weights(obj.data)
-    if own_groups:
-        groups = _new_groups(obj, found)
-    else:
-        _write_groups(obj, numbered)
-        groups = [part.group for part in obj.data.reeb_parts.parts]
+    groups = _new_groups(obj, found) if own_groups else _groups_of_parts(obj, numbered)
     collection = origins.make_collection(context, obj)
-    role = "armature"  # which is all that it stands for
     there = origins.made_of(obj, made_objects.ROLE)
-    earlier = made_objects.remove_untouched(there, role, _former_looks, lambda _: role, {role})
-    data = bpy.data.armatures.new(f"{NAME} {obj.name}")
-    rig = bpy.data.objects.new(data.name, data)
-    rig.matrix_world = found.place
-    rig.show_in_front = True
-    rig[made_objects.ROLE] = role
-    collection.objects.link(rig)
-    origins.claim(rig, obj)
-    _add_bones(context, rig, found.bones, groups)
-    made_objects.mark([rig])
+    earlier = made_objects.remove_untouched(there, _ROLE, _former_looks, lambda _: _ROLE, {_ROLE})
+    rig = _new_rig(context, obj, collection, found, groups)
     if own_groups:
         _write_weights(obj, groups, found.of_mesh(_weights(context, obj, rig, groups, found, weights)))
         mesh_groups.mark_weights(obj.data)
@@ -156,8 +144,23 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         modifier.object = rig
     elif modifier is not None:
         modifiers.remove(obj, modifier)
-    origins.hand_on(obj, earlier.gone, [(role, rig)])
+    origins.hand_on(obj, earlier.gone, [(_ROLE, rig)])
     return Made(rig, found.n_stiff, earlier.kept + n_kept)
+
+
+def _new_rig(context: bpy.types.Context, obj: bpy.types.Object, collection: bpy.types.Collection, found: Skeleton,
+             groups: list[str]) -> bpy.types.Object:
+    """An armature of an object, in a collection, with a bone for each group, by its name."""
+    data = bpy.data.armatures.new(f"{NAME} {obj.name}")
+    rig = bpy.data.objects.new(data.name, data)
+    rig.matrix_world = found.place
+    rig.show_in_front = True
+    rig[made_objects.ROLE] = _ROLE
+    collection.objects.link(rig)
+    origins.claim(rig, obj)
+    _add_bones(context, rig, found.bones, groups)
+    made_objects.mark([rig])
+    return rig
 
 
 def other_rig(obj: bpy.types.Object) -> bpy.types.Object | None:
@@ -260,14 +263,15 @@ def _write_weights(obj: bpy.types.Object, names: list[str], weights: Weights) ->
     mesh_groups.give_weights(groups, vertex, weights.bone[vertex, place], weights.weight[vertex, place])
 
 
-def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
-    """The bones find their vertices by the names of groups: make these unless they are there."""
+def _groups_of_parts(obj: bpy.types.Object, numbered: NumberedParts) -> list[str]:
+    """The names of the parts' own groups, by which the bones find their vertices; made unless they are there."""
     result = obj.data.reeb_parts
     if not result.has_groups:
         transaction.keep_mesh(obj.data)
         result.has_groups = True
         with property_updates.quiet():
             outputs.update_outputs(targets.users(obj.data)[0], numbered)
+    return [part.group for part in result.parts]
 
 
 def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, names: list[str]) -> None:

@@ -18,7 +18,8 @@ from ..reading import mesh_arrays, placing
 from ..result import part_names
 
 if TYPE_CHECKING:
-    from ...core.uses.moving.bones import Bones
+    from ...core.result.parts import Parts
+    from ...core.uses.moving.bones import Bones, BoneSurface
     from ...core.uses.moving.skinning import Weights
 
 
@@ -80,37 +81,47 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
 
     limbs : bool, only bones of parts that can be bent where they are cut.
     """
-    from ...core.uses.moving.bones import BoneSurface, part_bones  # imports SciPy
+    from ...core.uses.moving.bones import part_bones  # imports SciPy
     from ...core.uses.moving.limbs import limb_bones
-    from ...core.uses.moving.part_images import PartImages
 
-    mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
+    world, shape = placing.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
-    turn = np.array(place.inverted() @ world, np.float64)
-    whole, images, area = whole_model(obj, shape, numbered), None, shape.face_area
-    if whole is None:
-        table = mesh_arrays.corner_table(mesh, placing.transformed(mesh_arrays.shown_points(obj), turn))
-    else:
-        rigid, parts, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), whole.parts, np.tile(area, 2)
-        table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
-        images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
-    graph, back = parts.decomposition.graph, turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
-    plane = parts.decomposition.plane
-    if images is None:
-        images = PartImages.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
-                                 parts.labels, area)
-    line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
-    surface = BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
-                          np.concatenate([parts.point_part, parts.node_part]), images)
+    whole = whole_model(obj, shape, numbered)
+    parts = numbered.parts if whole is None else whole.parts
+    surface = _surface(obj, shape, parts, whole, np.array(place.inverted() @ world, np.float64))
     bone_part = part_bone = np.arange(parts.count)
     if limbs:
         bones, bone_part, part_bone = limb_bones(surface)
     else:
         bones = part_bones(surface)
     twin = np.empty(0, np.int64) if whole is None else part_bone[parts.twin[bone_part]]
-    return Skeleton(place, bones, _names(mesh, numbered, whole, bone_part), table, part_bone[parts.labels], twin,
-                    np.empty(0, bool) if whole is None else whole.on_plane,
-                    int((~np.isin(np.arange(numbered.parts.count), bone_part)).sum()))
+    on_plane = np.empty(0, bool) if whole is None else whole.on_plane
+    return Skeleton(place, bones, _names(obj.data, numbered, whole, bone_part), surface.table, part_bone[parts.labels],
+                    twin, on_plane, int((~np.isin(np.arange(numbered.parts.count), bone_part)).sum()))
+
+
+def _surface(obj: bpy.types.Object, shape: bridge.Shape, parts: Parts, whole: Whole | None,
+             turn: np.ndarray) -> BoneSurface:
+    """What bones are found by, in the coordinates of the armature. parts : of the whole, if there is one.
+
+    turn : (4, 4) float64, takes the mesh's coordinates there.
+    """
+    from ...core.uses.moving.bones import BoneSurface  # imports SciPy
+    from ...core.uses.moving.part_images import PartImages
+
+    graph, plane, area = parts.decomposition.graph, parts.decomposition.plane, shape.face_area
+    back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(obj.data))  # from the coordinates of the result
+    if whole is None:
+        table = mesh_arrays.corner_table(obj.data, placing.transformed(mesh_arrays.shown_points(obj), turn))
+        images = PartImages.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
+                                     parts.labels, area)
+    else:
+        rigid, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), np.tile(area, 2)
+        table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
+        images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
+    line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
+    return BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
+                       np.concatenate([parts.point_part, parts.node_part]), images)
 
 
 def _names(mesh: bpy.types.Mesh, numbered: NumberedParts, whole: Whole | None, bone_part: np.ndarray) -> list[str]:
