@@ -152,7 +152,7 @@ def _as_text(result: dict) -> str:
 
 
 def decompose_object(obj: bpy.types.Object, computations: Computations, options: argparse.Namespace,
-                     twin: bpy.types.Object | None = None) -> dict:
+                     twin: bpy.types.Object | None) -> dict:
     """Read, compute and write one object, all that is asked for or nothing; its entry in the JSON.
 
     twin : an object that shares its mesh and was decomposed before; then the parts are those that are there.

@@ -80,7 +80,7 @@ def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:
     return finished(reading_shape(obj, hints))
 
 
-def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[Shape]:
+def reading_shape(obj: bpy.types.Object, hints: str) -> Steps[Shape]:
     """Read the mesh of an object as ``read_shape`` does, in steps of which none takes long."""
     mesh = obj.data
     if obj.mode == "EDIT":

@@ -113,7 +113,7 @@ class Model:
             self._trees[part] = faces, cKDTree(self.face_center[faces])
         return self._trees[part]
 
-    def _nearest_face(self, place: np.ndarray, part: int = 0) -> int:
+    def _nearest_face(self, place: np.ndarray, part: int) -> int:
         """The face whose center is nearest to a (3,) place, of a part or, for 0, of all."""
         faces, tree = self._centers_of(part)
         return int(faces[tree.query(place)[1]])

@@ -17,8 +17,11 @@ COMMANDS = {"decompose": decompose, "batch": batch, "similar": similar}
 FAILED, WRONG_OPTION = 1, 2  # the latter is argparse's
 
 
-def parse(arguments: list[str] | None = None) -> argparse.Namespace:
-    """Read what the command was given; ends the process if that is wrong, or asks for help."""
+def parse(arguments: list[str] | None) -> argparse.Namespace:
+    """Read what the command was given; ends the process if that is wrong, or asks for help.
+
+    arguments : None for those of this process.
+    """
     parser = argparse.ArgumentParser(prog="reeb-parts", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--version", action="version", version=VERSION)

@@ -122,8 +122,8 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     return made
 
 
-def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
-                  smooth: np.ndarray | None = None, planar: bool = False) -> Steps[PieceMeshes]:
+def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool,
+                  smooth: np.ndarray | None, planar: bool) -> Steps[PieceMeshes]:
     """What ``piece_meshes`` does, in steps; caps have no place in UV maps yet, see cap_looks.map_caps."""
     plain = plain_copy(mesh)
     others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]

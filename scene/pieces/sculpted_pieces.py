@@ -30,7 +30,7 @@ def is_sculpted(mesh: bpy.types.Mesh) -> bool:
 class SculptedMesh:
     """A copy of a mesh, of which pieces are made; ``free`` removes it. As part_meshes.PlainMesh."""
 
-    def __init__(self, mesh: bpy.types.Mesh, planar: bool = False) -> None:
+    def __init__(self, mesh: bpy.types.Mesh, planar: bool) -> None:
         self._mesh, self._planar = mesh.copy(), planar
         self.whole = element_layers.read(self._mesh)
 

@@ -31,7 +31,7 @@ NUMBER = "reeb_parts_face_number"
 
 
 def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray,
-                 along: np.ndarray, planar: bool = False) -> Steps[tuple[Elements, np.ndarray, CleanCuts]]:
+                 along: np.ndarray, planar: bool) -> Steps[tuple[Elements, np.ndarray, CleanCuts]]:
     """Divide the faces of a mesh where smooth cuts between its parts run, in steps.
 
     Parameters
@@ -73,7 +73,7 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
 
 
 def finding_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray,
-                 planar: bool = False) -> Steps[CleanCuts]:
+                 planar: bool) -> Steps[CleanCuts]:
     """Find where smooth cuts run, in steps; arguments as of ``divide_faces``."""
     from ...core.uses.clean_cuts import method  # imports SciPy
 

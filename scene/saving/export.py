@@ -200,8 +200,8 @@ def _colors(obj: bpy.types.Object) -> dict[str, tuple[float, ...]]:
                      for number, color in listed.items()}
 
 
-def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path: Path,
-                     separated: bool = False, cut: str = "FACES") -> None:
+def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path: Path, separated: bool,
+                     cut: str) -> None:
     """Write the parts of some objects, closed, as one 3MF file with an assembly for each object.
 
     separated : bool, whether to write the pieces that were separated instead. cut : str, as for ``export_parts``.

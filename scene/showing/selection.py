@@ -76,8 +76,8 @@ def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.nda
 
 
 def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
-                   active: bpy.types.Object | None = None) -> None:
-    """Select these objects and no others, and make one of them the active one if that is asked for.
+                   active: bpy.types.Object | None) -> None:
+    """Select these objects and no others, and make one of them the active one, if any is given.
 
     What the view layer does not have, such as objects of a collection that is excluded, is left out.
     """
