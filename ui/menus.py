@@ -34,8 +34,8 @@ def draw_part_menu(layout: bpy.types.UILayout) -> None:
     layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
     _draw_operators(
         layout, ("reeb_parts.suggest_names", "SORTALPHA"), ("reeb_parts.names_from_active", "NONE"),
-        ("reeb_parts.find_similar", "NONE"), ("reeb_parts.frame", "VIEWZOOM"))
-    _draw_operators(layout, ("reeb_parts.rename", "NONE"), ("reeb_parts.hide", "HIDE_ON"))
+        ("reeb_parts.find_similar", "NONE"), ("reeb_parts.frame", "VIEWZOOM"), ("reeb_parts.rename", "NONE"),
+        ("reeb_parts.hide", "HIDE_ON"))
     layout.separator()
     _draw_operators(
         layout, ("reeb_parts.merge", "AUTOMERGE_ON"), ("reeb_parts.merge_neighbour", "NONE"),
