@@ -317,13 +317,12 @@ def is_crowded(graph: ReebGraph, shown: np.ndarray) -> bool:
 
 
 def restyle(obj: bpy.types.Object | None, style: Any) -> None:
-    """Draw an object's graph in another size or thickness."""
-    collection = graph_finding.find(obj) if obj is not None else None
-    if obj is None or collection is None:
+    """Draw an object's graph, if it has one, in another size or thickness."""
+    if obj is None:
         return
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
-    for item in graph_finding.originals(graph_finding.inside(collection)):
+    for item in graph_finding.originals(graph_finding.wherever(obj)):
         transaction.keep(item, "show_in_front")
         item.show_in_front = style.in_front
         if item[ROLE] == graph_finding.NODE:

@@ -308,6 +308,13 @@ class TestElsewhere:
         obj.data.reeb_parts.detail = 0.9
         assert graph_facts() == expected
 
+    def test_it_is_drawn_as_large_as_is_set(self, obj, settings, how):
+        nodes = [item for item in obj.children if item.type == "EMPTY" and not item["folded"]]
+        before = nodes[0].empty_display_size
+        how(bpy.data.collections["Reeb Graph Tree"])
+        settings.node_size *= 2.0
+        assert [node.empty_display_size for node in nodes] == pytest.approx([2.0 * before] * len(nodes))
+
     def test_clear_removes_it(self, obj, settings, how):
         how(bpy.data.collections["Reeb Graph Tree"])
         bpy.ops.reeb_parts.clear()
