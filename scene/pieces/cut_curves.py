@@ -10,7 +10,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ...core.arrays.indexing import renumbered
+from ...core.arrays.indexing import renumbered, run_starts
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.corners import CornerTable
 from ...core.steps import Steps, stretched
@@ -68,18 +68,8 @@ def _with_triangles(table: CornerTable, points: np.ndarray, labels: np.ndarray,
     odd = np.zeros(table.n_faces, bool)
     odd[faces] = True
     corner = odd[table.corner_face]
-    used, vertex = renumbered(table.corner_vertex[corner])
-    with freed(bmesh.new()) as bm:
-        verts = [bm.verts.new(point) for point in points[used].tolist()]
-        layer = bm.faces.layers.int.new(smooth_faces.NUMBER)
-        for ring in np.split(vertex, np.flatnonzero(np.diff(table.corner_face[corner])) + 1):
-            bm.faces.new([verts[i] for i in ring.tolist()])
-        for face, label in zip(bm.faces, labels[np.flatnonzero(odd)].tolist(), strict=True):
-            face[layer] = label
-        bm.verts.index_update()
-        smooth_faces.triangulate(bm, np.arange(len(faces)))
-        triangles = used[[[vert.index for vert in face.verts] for face in bm.faces]]
-        number = np.array([face[layer] for face in bm.faces], np.int64)
+    rings = np.split(table.corner_vertex[corner], run_starts(table.corner_face[corner])[1:])
+    triangles, number = _triangles(rings, points, labels[odd])
     # Edges by their ends: those there were, then those that divide faces.
     sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     known = np.sort(table.edges[table.corner_edge[corner]], axis=1)
@@ -97,3 +87,21 @@ def _with_triangles(table: CornerTable, points: np.ndarray, labels: np.ndarray,
                                     (~odd).sum() + np.repeat(np.arange(len(triangles)), 3)]),
         n_faces=int((~odd).sum()) + len(triangles))
     return divided, np.concatenate([labels[~odd], number])
+
+
+def _triangles(rings: list[np.ndarray], points: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The triangles of some faces, vertices of each given, and the label of each triangle: (t, 3) and (t,) int64.
+
+    points : (n, 3) float32, of all vertices. labels : (k,) int64, of the faces.
+    """
+    used, vertex = renumbered(np.concatenate(rings))
+    with freed(bmesh.new()) as bm:
+        verts = [bm.verts.new(point) for point in points[used].tolist()]
+        layer = bm.faces.layers.int.new(smooth_faces.NUMBER)
+        first = np.cumsum([0, *map(len, rings)]).tolist()
+        for start, end, label in zip(first, first[1:], labels.tolist(), strict=False):
+            bm.faces.new([verts[i] for i in vertex[start:end].tolist()])[layer] = label
+        bm.verts.index_update()
+        smooth_faces.triangulate(bm, np.arange(len(rings)))
+        triangles = used[[[vert.index for vert in face.verts] for face in bm.faces]]
+        return triangles, np.array([face[layer] for face in bm.faces], np.int64)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ...core.result.numbering import NumberedParts
+from ...core.result.numbering import NumberedParts, Numbering
 from ...core.steps import Steps, finished
 from ...core.uses.graph_folding import unfolded
 from .. import bridge, outputs, property_updates, store, targets, transaction
@@ -72,25 +72,16 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     """What ``write_result`` does, in steps."""
     mesh, decomposition = obj.data, outcome.decomposition
     assert decomposition is not None
-    parameters = decomposition.parameters
     transaction.keep_mesh(mesh)
     _keep_colors(mesh)
     orphan_outputs.remove(obj)
     stored = succession.succeed(obj, outcome.shape, decomposition)
     numbered = stored.shown_parts()
-    result = mesh.reeb_parts
     yield 0.1
     with property_updates.quiet():
         store.save(mesh, stored)
         yield 0.4
-        result.object_name = obj.name
-        result.stretch = outcome.shape.stretch.ravel().tolist()
-        result.seconds = outcome.seconds
-        notes.keep(result, decomposition.notes + outcome.shape.notes)
-        result.detail, result.by_number, result.asked = parameters.detail, parameters.n_parts > 0, 0
-        if result.by_number:
-            store.go_to_number(result, stored.numbering, numbered.parts.count)
-            result.asked = 0 if numbered.parts.count == parameters.n_parts else parameters.n_parts
+        _keep_facts(obj, outcome, stored.numbering, numbered.parts.count)
         outputs.write_outputs(obj, numbered, decomposition.field, settings)
         outputs.keep_places(mesh, numbered)
     store.mark_pins(mesh, stored)
@@ -104,6 +95,20 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
         else:
             graph_removal.remove(user)
     return kept
+
+
+def _keep_facts(obj: bpy.types.Object, outcome: Outcome, numbering: Numbering, count: int) -> None:
+    """Keep what a run says of itself: its shape, time and notes, and the level of detail that has so many parts."""
+    assert outcome.decomposition is not None
+    result, parameters = obj.data.reeb_parts, outcome.decomposition.parameters
+    result.object_name = obj.name
+    result.stretch = outcome.shape.stretch.ravel().tolist()
+    result.seconds = outcome.seconds
+    notes.keep(result, outcome.decomposition.notes + outcome.shape.notes)
+    result.detail, result.by_number, result.asked = parameters.detail, parameters.n_parts > 0, 0
+    if result.by_number:
+        store.go_to_number(result, numbering, count)
+        result.asked = 0 if count == parameters.n_parts else parameters.n_parts
 
 
 def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, settings: Any) -> int:
