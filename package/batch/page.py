@@ -66,6 +66,10 @@ function more() {
   count += next.length;
   main.append(...next.map(card));
 }
+// Until there are cards below the window: a window that all of them fit into cannot be scrolled.
+function fill() {
+  while (count < shown.length && innerHeight + scrollY > document.body.scrollHeight - 800) more();
+}
 function update() {
   const wanted = words.value.toLowerCase().split(/\\s+/).filter(Boolean);
   shown = models.filter(m => wanted.every(w => m.text.includes(w)));
@@ -75,19 +79,24 @@ function update() {
     return sign * (x < y ? -1 : x > y ? 1 : 0) || (a.name < b.name ? -1 : a.name > b.name ? 1 : 0);
   });
   found.textContent = `${shown.length} of ${models.length}`;
-  main.replaceChildren(); count = 0; more();
+  main.replaceChildren(); count = 0; fill();
 }
 models.forEach(m => { m.text = [m.name, m.status, m.reason, ...m.notes].join(' ').toLowerCase(); });
-words.value = decodeURIComponent(location.hash.slice(1));  // index.html#cow looks for cows
 words.addEventListener('input', update);
 key.addEventListener('change', update);
 down.addEventListener('click', () => {
   down.setAttribute('aria-pressed', down.getAttribute('aria-pressed') !== 'true'); update();
 });
-addEventListener('scroll', () => {
-  if (count < shown.length && innerHeight + scrollY > document.body.scrollHeight - 800) more();
-});
-update();
+addEventListener('scroll', fill);
+addEventListener('resize', fill);
+// index.html#cow looks for cows.
+function lookFor() {
+  const hash = location.hash.slice(1);
+  try { words.value = decodeURIComponent(hash); } catch { words.value = hash; }  // such as 50%
+  update();
+}
+addEventListener('hashchange', lookFor);
+lookFor();
 """
 KEYS = (("name", "name"), ("parts", "number of parts"), ("faces", "faces"), ("loops", "loops"),
         ("seconds", "seconds"), ("status", "status"))

@@ -79,6 +79,23 @@ def test_a_long_reason_ends_with_a_whole_line(tmp_path):
     assert float(re.search("<title>(.*?)</title>", dom).group(1)) == pytest.approx(7, abs=0.01)
 
 
+@pytest.mark.parametrize(("hash", "found"), [("cow", "2 of 4"), ("COW%20rim", "1 of 4"), ("50%", "0 of 4")])
+def test_words_in_the_address_are_looked_for_when_they_change(hash, found, shown):
+    """An open page did not follow them, and a percent sign left an empty one."""
+    dom = after(shown.path, f"location.hash = {hash!r}; dispatchEvent(new Event('hashchange'));")
+    assert f'id="found">{found}<' in dom
+
+
+def test_a_window_that_200_models_do_not_fill_has_more(tmp_path):
+    """It could not be scrolled, and so never showed the others."""
+    path = tmp_path / "index.html"
+    path.write_text(page("500 models", [
+        {"name": f"{number}.obj", "status": "refused", "reason": "", "notes": [], "image": "", "link": ""}
+        for number in range(500)]), encoding="utf-8")
+    assert in_browser(path, "--dump-dom", "--window-size=5120,5120").count("<figure") == 500
+    assert in_browser(path, "--dump-dom", "--window-size=900,500").count("<figure") == 200
+
+
 def test_a_picture_of_it_can_be_taken(shown):
     shot = shown.path.with_name("page.png")
     in_browser(shown.path, f"--screenshot={shot}", "--window-size=900,500")
