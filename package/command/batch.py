@@ -22,6 +22,7 @@ from collections.abc import Iterator
 from contextlib import closing, suppress
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 from ..batch.records import CRASH, DONE, OPEN, Settings, failure, is_done, record_of, write_record
@@ -92,6 +93,8 @@ def run(options: argparse.Namespace) -> int:
     batch = _Batch(options)
     with as_output_error(batch.out):
         batch.out.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=batch.out):  # or each model would be computed, and none could be written
+            pass
         shared = SharedFolder(batch.out)
     interrupted = False
     with shared:

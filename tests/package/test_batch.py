@@ -330,6 +330,7 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
 
 @pytest.mark.parametrize(("arguments", "status", "words"), [
     (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
+    (["--out", "/proc"], 1, "/proc could not be written: "),
     (["--out", "OUT", "--workers", "0"], 2, "must be a whole number, 1 or more, not 0"),
     (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number from 0 to 100000, not nan"),
     (["--out", "OUT", "--memory-limit", "8589934592"], 2, "must be a number from 0 to 100000, not 8589934592"),
@@ -346,6 +347,7 @@ def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models
     done = reeb_parts_command("batch", model, *(places.get(word, word) for word in arguments))
     assert (done.returncode, done.stdout) == (status, "")
     assert words in done.stderr.splitlines()[-1]
+    assert "Dask" not in done.stderr  # no model was computed before
     assert list(tmp_path.iterdir()) == []
 
 
