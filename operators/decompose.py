@@ -105,10 +105,10 @@ class REEB_PARTS_OT_decompose(
         if left:
             self.left_detail, self.left_n_parts = self.detail, self.n_parts
 
-    def _as_shown(self, outcome: Outcome) -> Outcome:
+    def _as_shown(self, outcome: Outcome, obj: bpy.types.Object) -> Outcome:
         """The outcome for an object at the detail that it shows, unless another one is asked for."""
         asked = (self.detail, self.n_parts) != (self.left_detail, self.left_n_parts)
-        shown = {} if asked else results.detail_of(bpy.data.objects[outcome.object_name, None])
+        shown = {} if asked else results.detail_of(obj)
         found = outcome.decomposition
         if found is None or not shown:
             return outcome
@@ -137,27 +137,28 @@ class REEB_PARTS_OT_decompose(
 
     def _writing(self, context: bpy.types.Context, outcomes: list[Outcome]) -> Steps[None]:
         """Write what was computed and report on it."""
-        outcomes = [self._as_shown(outcome) for outcome in outcomes]
-        done = [outcome for outcome in outcomes if outcome.decomposition is not None]
+        found = [(self._as_shown(outcome, obj), obj)
+                 for outcome, obj in zip(outcomes, results.objects_of(outcomes), strict=True)]
+        done = [(outcome, obj) for outcome, obj in found if outcome.decomposition is not None]
         if not done:
             raise SceneError(translated(outcomes[0].problem))
         kept = 0
         with object_mode(context):
-            for index, outcome in enumerate(done):
-                steps = writing_result(context, bpy.data.objects[outcome.object_name, None], outcome, self)
+            for index, (outcome, obj) in enumerate(done):
+                steps = writing_result(context, obj, outcome, self)
                 kept += yield from stretched(steps, index / len(done), (index + 1) / len(done))
         report_kept(self, kept)
-        for outcome in outcomes:
-            self._report(outcome, len(outcomes) > 1)
+        for outcome, obj in found:
+            self._report(outcome, obj, len(found) > 1)
 
-    def _report(self, outcome: Outcome, several: bool) -> None:
-        name = f"{outcome.object_name}: " if several else ""
+    def _report(self, outcome: Outcome, obj: bpy.types.Object, several: bool) -> None:
+        name = f"{obj.name}: " if several else ""
         if outcome.decomposition is None:
             self.report({"WARNING"}, name + translated(outcome.problem))
             return
         for note in outcome.decomposition.notes + outcome.shape.notes:
             self.report({"INFO"}, name + translated(note))
-        result = bpy.data.objects[outcome.object_name, None].data.reeb_parts
+        result = obj.data.reeb_parts
         self.report({"INFO"}, name + rpt_("{n} {n:part|parts} in {seconds:.1f} s").format(
             n=Count(len(result.parts)), seconds=outcome.seconds))
 
@@ -167,7 +168,7 @@ class REEB_PARTS_OT_decompose(
         if self._job.error is not None:
             raise self._job.error
         assert self._job.result is not None
-        check_unchanged(self._job.digests)
+        check_unchanged(context, self._job.result)
         if self.colors:
             shading.show_colors(context)
         yield from self._writing(context, self._job.result)

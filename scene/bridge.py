@@ -33,6 +33,8 @@ class Shape:
 
     Attributes
     ----------
+    object_uid : int
+        The object by its session_uid, which it keeps when it is renamed, or comes back by an undo.
     vertices : (n, 3) float64
         Along the object's axes, in units of the world.
     triangles : (m, 3) int32
@@ -51,6 +53,7 @@ class Shape:
         Why there are too few faces, where modifiers make those that are seen.
     """
 
+    object_uid: int
     vertices: np.ndarray
     triangles: np.ndarray
     polygon: np.ndarray
@@ -108,8 +111,8 @@ def reading_shape(obj: bpy.types.Object, hints: str) -> Steps[Shape]:
     mirror = half_plane(obj, vertices, stretch)
     yield 0.8
     digest = fingerprints.digest(vertices, triangles, polygon)
-    return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0),
-                 _problem(obj, int(polygon[-1]) + 1 if len(polygon) else 0))
+    return Shape(obj.session_uid, vertices, triangles, polygon, stretch, mirror, hint, digest,
+                 _notes(obj, len(mirror) > 0), _problem(obj, int(polygon[-1]) + 1 if len(polygon) else 0))
 
 
 def world_stretch(obj: bpy.types.Object) -> np.ndarray:

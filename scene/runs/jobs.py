@@ -73,8 +73,6 @@ class Job:
         In the order of the shapes; None until all is done.
     error : Exception or None
         Why there will be no result.
-    digests : dict of str
-        Of each object, by its name, the digest of its shape.
     n_vertices : int
         Of all shapes.
     """
@@ -84,7 +82,6 @@ class Job:
         self.in_blender = self.cancelled = False
         self.result: list[Outcome] | None = None
         self.error: Exception | None = None
-        self.digests = {name: shape.digest for name, shape in shapes}
         self.n_vertices = sum(len(shape.vertices) for _, shape in shapes)
         self._shapes, self._parameters = shapes, parameters
         self._found: dict[tuple, Any] = {}  # a Decomposition or an error of core, by compute.key_of

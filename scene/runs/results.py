@@ -24,19 +24,25 @@ from . import succession
 from .compute import Outcome
 
 
-def check_unchanged(digests: dict[str, str]) -> None:
-    """Raise SceneError if an object is gone or was edited while it was being computed.
-
-    digests : the digest of the shape that was computed, by the name of its object.
-    """
-    for name, digest in digests.items():
-        obj = bpy.data.objects.get(name)
-        if obj is None or obj.type != "MESH":
-            raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
-        targets.check_object(obj)
-        if bridge.read_shape(obj).digest != digest:
+def check_unchanged(context: bpy.types.Context, outcomes: list[Outcome]) -> None:
+    """Raise SceneError if an object that was computed is not in the scene any more, or was edited meanwhile."""
+    for outcome, obj in zip(outcomes, objects_of(outcomes), strict=True):
+        if obj is None or not obj.users_scene or obj.type != "MESH":
             raise SceneError(
-                rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
+                rpt_("{name} is gone; its parts were computed in vain.").format(name=outcome.object_name))
+        if context.scene not in obj.users_scene:
+            raise SceneError(
+                rpt_("{name} is not in this scene. Go back to its own, and decompose it again.").format(name=obj.name))
+        targets.check_object(obj)
+        if bridge.read_shape(obj).digest != outcome.shape.digest:
+            raise SceneError(
+                rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=obj.name))
+
+
+def objects_of(outcomes: list[Outcome]) -> list[bpy.types.Object | None]:
+    """The objects that were computed; None for those that are gone."""
+    by_uid = {obj.session_uid: obj for obj in bpy.data.objects}
+    return [by_uid.get(outcome.shape.object_uid) for outcome in outcomes]
 
 
 def detail_of(obj: bpy.types.Object | None) -> dict[str, float | int]:

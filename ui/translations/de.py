@@ -916,6 +916,8 @@ TEXTS = {
         "{command} wurde mit seinem Fenster beendet; nichts wurde geändert.",
     "{name} is gone; its parts were computed in vain.":
         "{name} ist nicht mehr da; seine Teile wurden vergeblich berechnet.",
+    "{name} is not in this scene. Go back to its own, and decompose it again.":
+        "{name} ist nicht in dieser Szene. Bitte in der eigenen erneut zerlegen.",
     "{name} was changed while its parts were computed. Decompose it again.":
         "{name} wurde geändert, während seine Teile berechnet wurden. Bitte erneut zerlegen.",
     "The active object has no parts": "Das aktive Objekt hat keine Teile",

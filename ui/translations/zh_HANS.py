@@ -818,6 +818,8 @@ TEXTS = {
     "{command} was ended with its window; nothing was changed.":
         "{command} 已随其窗口结束；未作任何更改。",
     "{name} is gone; its parts were computed in vain.": "{name} 已不存在；其部件的计算结果未被使用。",
+    "{name} is not in this scene. Go back to its own, and decompose it again.":
+        "{name} 不在此场景中。请回到它所在的场景并重新分解。",
     "{name} was changed while its parts were computed. Decompose it again.":
         "{name} 在计算部件期间被更改。请重新分解。",
     "The active object has no parts": "活动物体没有部件",
