@@ -3,7 +3,8 @@
 
 Each node and each point of an arc moves as the candidate part around it does, which is fitted to the evaluated mesh.
 The nodes keep their locations, which are the graph's; a delta of theirs takes them to where they are seen. A mesh whose
-modifiers make other faces than its own has its graph where it was, but for Subdivision beside those that move it.
+modifiers make other faces than its own has its graph where it was, but for Subdivision beside those that move it, and
+for the Mirror of a half model before these: what lies on the other side goes with the image there.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import numpy as np
 
 from ...core.arrays.indexing import sums_by
 from ...core.result.decomposition import Decomposition
+from ...core.symmetry.plane import MirrorPlane
 from ...core.uses.moving.motion import rigid_motions
 from .. import bridge, redraw, store
 from ..errors import SceneError
-from ..reading import mesh_arrays
-from ..reading.seen_points import seen_corners
+from ..reading import half_models, mesh_arrays
+from ..reading.seen_points import seen_corners, seen_halves
 from . import arc_curves, graph_finding, graph_objects
 
 _RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is
@@ -101,16 +103,36 @@ def _moved(
     table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
     before = table.face_means(table.vertices)
     area = mesh_arrays.read(obj.data.polygons, "area", np.float32).astype(np.float64)
-    motions = rigid_motions(before, seen, area, decomposition.candidates, decomposition.n_candidates)
-    moved = motions.moved(rest, np.concatenate([decomposition.node_candidate, decomposition.point_candidate]))
+    candidates, n_candidates = decomposition.candidates, decomposition.n_candidates
+    moved_with = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
+    moved = rigid_motions(before, seen, area, candidates, n_candidates).moved(rest, moved_with)
+    both, plane = seen_halves(context, obj), _plane(obj)
+    if both is not None and plane is not None:
+        stretch = store.stretch_of(obj.data)
+        image = plane.mirrored(before @ stretch.T) @ bridge.unstretch(stretch).T
+        motions = rigid_motions(image, _face_means(obj, both[1]), area, candidates, n_candidates)
+        mean = plane.heights(before @ stretch.T).mean()
+        # What lies in the plane goes with the mesh itself.
+        beyond = plane.heights(rest @ stretch.T) * mean < -_RESTS * mean**2
+        moved[beyond] = motions.moved(rest[beyond], moved_with[beyond])
     size = np.ptp(before, axis=0).max()
     return rest if np.abs(moved - rest).max(initial=0.0) <= _RESTS * size else moved
 
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
     """The middle of each face as it is seen, (p, 3) float64; None if modifiers leave it, or make other faces."""
-    points, own = seen_corners(context, obj), obj.data
-    if points is None:
-        return None
-    _, face = mesh_arrays.face_corners(own)
-    return sums_by(face, points.astype(np.float64), len(own.polygons)) / mesh_arrays.face_sizes(own)[:, None]
+    points = seen_corners(context, obj)
+    return None if points is None else _face_means(obj, points)
+
+
+def _face_means(obj: bpy.types.Object, points: np.ndarray) -> np.ndarray:
+    """The middle of each face of an object's mesh, (p, 3) float64, of its corners' places (c, 3)."""
+    _, face = mesh_arrays.face_corners(obj.data)
+    return sums_by(face, points.astype(np.float64), len(obj.data.polygons)) / mesh_arrays.face_sizes(obj.data)[:, None]
+
+
+def _plane(obj: bpy.types.Object) -> MirrorPlane | None:
+    """The plane of a half model, in coordinates of its shape; None of any other."""
+    stretch = store.stretch_of(obj.data)
+    plane = half_models.half_plane(obj, mesh_arrays.shown_points(obj).astype(np.float64) @ stretch.T, stretch)
+    return MirrorPlane.of(plane) if len(plane) else None

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.arrays.indexing import sums_by
 from ...core.arrays.vectors import cross
 from ...core.mesh.corners import next_of_owner
-from . import mesh_arrays
+from . import half_models, mesh_arrays
 
 # Modifiers that move vertices or change what these carry, and such that put new ones behind those that there were.
 _MOVE = {
@@ -62,7 +62,8 @@ def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray
 def seen_corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
     """Where each corner of each face is seen, (c, 3) float32 in the object's coordinates; not in Edit Mode.
 
-    None if modifiers move nothing, or make other faces and do not just divide those that were moved.
+    None if modifiers move nothing, or make other faces and do not just divide those that were moved. Of what a Mirror
+    modifier mirrors first, these are its own corners, not those of the image.
     """
     shown = {modifier.type for modifier in _shown(obj)}
     if not shown:
@@ -70,9 +71,28 @@ def seen_corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarra
     mesh, own = obj.evaluated_get(context.evaluated_depsgraph_get()).data, obj.data
     if (len(mesh.polygons), len(mesh.loops)) == (len(own.polygons), len(own.loops)):
         return mesh_arrays.basis_points(mesh)[mesh_arrays.corner_vertices(mesh)]
+    both = seen_halves(context, obj)
+    if both is not None:
+        return both[0]
     if shown & _MOVE and shown <= _MOVE | _DIVIDE:
         return seen_points(context, obj)[mesh_arrays.corner_vertices(own)]
     return None
+
+
+def seen_halves(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
+    """Where the corners are seen of a model that a Mirror modifier mirrors first, and those of the image, behind them.
+
+    In Blender the faces of the image come after those of the mesh, in the same order.
+
+    Returns (2, c, 3) float32 in the object's coordinates, where the corners of each face of the image may have another
+    order. None if nothing comes after the Mirror modifier, or if what does makes other faces; not in Edit Mode.
+    """
+    if half_models.mirror_of(obj) is None or len(_shown(obj)) < 2:
+        return None
+    mesh, own = obj.evaluated_get(context.evaluated_depsgraph_get()).data, obj.data
+    if (len(mesh.polygons), len(mesh.loops)) != (2 * len(own.polygons), 2 * len(own.loops)):
+        return None
+    return mesh_arrays.basis_points(mesh)[mesh_arrays.corner_vertices(mesh)].reshape(2, -1, 3)
 
 
 def corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray:

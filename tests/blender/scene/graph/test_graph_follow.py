@@ -7,6 +7,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
+import shapes
 from mathutils import Vector
 from snapshot import changes, snapshot
 
@@ -131,6 +132,33 @@ def test_it_goes_with_the_bones(obj, follow, divided):
         # Faces at a cut have vertices that rest.
         assert after[index] == pytest.approx(np.array(way @ Vector(before[index])), abs=0.1)
     assert np.linalg.norm(after - before, axis=1).max() > 0.5
+
+
+def test_that_of_a_half_model_goes_with_the_bones_of_both_sides(package, make):
+    """It stayed where it was, and so did the outline of chosen parts."""
+    obj = make(shapes.half_of(shapes.mirrored_figure()), "Figure")
+    obj.scale = (1.0, 1.5, 0.5)
+    obj.modifiers.new("Mirror", "MIRROR")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature(weights="PARTS")
+    bpy.context.view_layer.update()
+    before, _ = seen()
+    (rig,) = [item for item in bpy.data.objects if item.type == "ARMATURE"]
+    sides = [bone.name for bone in rig.pose.bones if bone.name.endswith((".L", ".R"))]
+    assert len(sides) > 2
+    turned = [name for name in sides if name.endswith(".R")]
+    for name in turned:
+        rig.pose.bones[name].location = (0.0, 0.0, 0.25)
+    bpy.context.view_layer.update()
+    sys.modules[f"{package}.scene.graph.graph_follow"].follow(bpy.context, obj)
+    after, _ = seen()
+    names = {part.number: part.name for part in obj.data.reeb_parts.parts}
+    moved = np.linalg.norm(after - before, axis=1)
+    limb = np.array([f"DEF-{names[node['part']]}.R" in turned for _, node in sorted(nodes().items())])
+    left, right = before[:, 0] > 0.3, before[:, 0] < -0.3
+    assert moved[limb & right] == pytest.approx(0.25, abs=0.05)
+    assert moved[limb & left] == pytest.approx(0.0, abs=1e-4)
+    assert (limb & left).sum() == (limb & right).sum() > 1
 
 
 def test_nodes_and_arcs_of_hidden_parts_are_folded(obj, follow):
