@@ -37,8 +37,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         fill_in(self, context.scene.reeb_parts_use, SEPARATE)
-        objects = targets.chosen_objects(context, one_per_mesh=False)
-        return self.start(context) if is_long(objects) else self.execute(context)
+        # Whether they can be worked on is asked later, where the answer is reported.
+        objects = {targets.active_object(context), *targets.selected_objects(context)}
+        long = is_long([obj for obj in objects if obj is not None and obj.type == "MESH"])
+        return self.start(context) if long else self.execute(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         """The panel after it: in the order of Use Parts, and without what does not count."""

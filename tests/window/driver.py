@@ -139,6 +139,12 @@ def adjust_separate(seen):
     yield 0.5
     seen["adjusted"] = pieces()
     pointer.shot("5_adjusted.png")
+    bpy.context.view_layer.objects.active = None
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        try:
+            bpy.ops.reeb_parts.separate("INVOKE_DEFAULT")
+        except RuntimeError as error:
+            seen["separated nothing"] = str(error).splitlines()
 
 
 def pieces():

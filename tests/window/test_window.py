@@ -45,6 +45,11 @@ def test_separate_can_be_adjusted_once_a_piece_is_active(seen):
     assert seen["adjusted"] == dict.fromkeys(seen["separated"], True)
 
 
+def test_separate_again_is_refused_in_a_sentence(seen):
+    """As what was done last it can be pressed whatever is active, so that it can be adjusted; it showed a traceback."""
+    assert seen["separated nothing"] == ["Error: Decompose the mesh first"]
+
+
 def test_what_is_adjusted_is_as_if_it_were_done_once(seen):
     assert seen["hulls"]
     assert seen["hulls again"] == seen["hulls"]
