@@ -54,6 +54,7 @@ def test_m_merges_the_chosen_parts(seen):
 
 def test_c_cuts_and_p_paints(seen):
     assert seen["C"] == ["REEB_PARTS_OT_cut"]
+    assert seen["ring after C"]  # it waited for the pointer to move
     assert len(seen["cut"]) == len(seen["merged"]) + 2
     assert seen["P"] == ["REEB_PARTS_OT_paint"]
     assert seen["painted"] > seen["before painting"]

@@ -137,6 +137,8 @@ def cut():
     before = snapshot()
     yield from pointer.tap("c")
     note("C", at_work())
+    (tool,) = bpy.context.window.modal_operators
+    note("ring after C", tool.preview.lines is not None)
     yield from pointer.press(*pointer.surface_places(spot())[number("Part 06")])
     yield from pointer.until(lambda: len(shares()) > 10)
     note("cut", sorted(shares()))

@@ -80,8 +80,8 @@ class RingTool(ColoredTool):
         check_borders(obj, boundaries)
         return boundaries
 
-    def _start(self, context: bpy.types.Context) -> set[str]:
-        result = super()._start(context)
+    def _start(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        result = super()._start(context, event)
         self.at_work = True
         self._show_rings(context)
         return result

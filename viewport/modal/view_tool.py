@@ -119,9 +119,9 @@ class ViewTool(ReportingOperator):
         return {"CANCELLED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        return self.attempt(self._start, context)
+        return self.attempt(self._start, context, event)
 
-    def _start(self, context: bpy.types.Context) -> set[str]:
+    def _start(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active
         if context.area is None or context.area.type != "VIEW_3D":
             raise SceneError(rpt_("This works over a 3D viewport."))
@@ -133,6 +133,14 @@ class ViewTool(ReportingOperator):
         hover.clear()
         context.window.cursor_modal_set(self.cursor)
         context.workspace.status_text_set(self.hint())
+        if self.aims:  # started by a key, the pointer rests over the model already
+            try:
+                place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
+                self.hover(context, self._target(context, place), event)
+            except BaseException:
+                self._end(context)
+                raise
+        redraw.viewports()
         context.window_manager.modal_handler_add(self)
         running.begun(self, context)
         return {"RUNNING_MODAL"}
