@@ -40,17 +40,21 @@ class SymmetryGroup:
     def generated(cls, generators: np.ndarray, most: int) -> SymmetryGroup | None:
         """The group that some exact symmetries generate; None if it is too large.
 
+        What the first of them generate comes first: of several elements that take a face to a wedge, one that mirrors
+        in planes at right angles.
+
         generators : (k, p) int64, the image of each face under each. most : upper bound of the number of elements.
         """
         image = [np.arange(generators.shape[1])]
         known = {image[0].tobytes(): 0}
-        for before in image:  # grows while it is walked through
-            for then in generators:
-                further = then[before]
-                if known.setdefault(further.tobytes(), len(image)) == len(image):
-                    image.append(further)
-                    if len(image) > most:
-                        return None
+        for count in range(1, len(generators) + 1):
+            for before in image:  # grows while it is walked through
+                for then in generators[:count]:
+                    further = then[before]
+                    if known.setdefault(further.tobytes(), len(image)) == len(image):
+                        image.append(further)
+                        if len(image) > most:
+                            return None
         composition = [[known[u[v].tobytes()] for v in image] for u in image]
         return cls(np.array(image), np.array(composition))
 
