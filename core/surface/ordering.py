@@ -20,6 +20,7 @@ from ..arrays.ties import DENSE, TIE, ranks
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import TriMesh
+from .diagonals import divided_by_shape, outer_first
 
 # The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
 # rounding is not to decide in which cell a point lies. Points of one cell are compared one by one. Of a dense mesh, on
@@ -74,11 +75,13 @@ class Ordering:
             return around / np.maximum(np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices), 1)[:, None]
 
         def mean(of_triangle: np.ndarray) -> np.ndarray:
-            """Mean over the triangles of each polygon, (p, 3)."""
+            """Mean over the area of each polygon, (p, 3), which is the same however it is divided."""
             if n_polygons == mesh.n_faces and (polygon == np.arange(n_polygons)).all():
                 return of_triangle
-            count = np.maximum(np.bincount(polygon, minlength=n_polygons), 1)[:, None]
-            return sums_by(polygon, of_triangle, n_polygons) / count
+            weight = np.where(np.bincount(polygon, mesh.face_area, n_polygons)[polygon] > 0, mesh.face_area, 1.0)
+            total = np.bincount(polygon, weight, n_polygons)
+            total[total == 0] = 1.0  # a polygon of no triangle
+            return sums_by(polygon, weight[:, None] * of_triangle, n_polygons) / total[:, None]
 
         by_place = _order(mean(center), lambda: mean(normal()))
         return cls(_order(corner, beside), by_place)
@@ -102,10 +105,14 @@ class Ordering:
 
         polygon : (m,) int64, of each triangle given. Returns the mesh, and the given triangle at each place, (m,).
         """
+        vertices, number = taken(mesh.vertices, self.vertex), inverse(self.vertex)
         triangle = stable_order(inverse(self.polygon)[polygon])
-        faces = inverse(self.vertex)[mesh.faces[triangle]]
+        faces = number[mesh.faces[triangle]]
+        if len(self.polygon) < mesh.n_faces:
+            outer = outer_first(TriMesh(vertices, faces), polygon[triangle])
+            triangle, faces = triangle[outer], faces[outer]
         turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
-        return TriMesh(taken(mesh.vertices, self.vertex), np.take_along_axis(faces, turn, axis=1)), triangle
+        return TriMesh(vertices, np.take_along_axis(faces, turn, axis=1)), triangle
 
 
 def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonMesh, Ordering]:
@@ -115,8 +122,10 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     symmetry leaves several frames, that of the whole decides if pieces that touch are one body, and this one may touch
     another; else the order of the given vertices, as it would without the others.
 
-    given : PolygonMesh. together : bool. Returns the same surface, and where its elements are in the one given.
+    given : PolygonMesh. together : bool. Returns the same surface, with quadrilaterals ``divided_by_shape``, and where
+    its elements are in the one given.
     """
+    given = replace(given, triangles=divided_by_shape(given.triangles, given.polygon))
     place = _places(given.triangles)
     ordering = _by_place(_at_places(given.triangles, place), given.polygon, given.n_polygons, together)
     if len(ordering.vertex) < len(place):
