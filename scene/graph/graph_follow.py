@@ -103,18 +103,22 @@ def _moved(
     table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
     before = table.face_means(table.vertices)
     area = mesh_arrays.read(obj.data.polygons, "area", np.float32).astype(np.float64)
-    candidates, n_candidates = decomposition.candidates, decomposition.n_candidates
     moved_with = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
-    moved = rigid_motions(before, seen, area, candidates, n_candidates).moved(rest, moved_with)
-    both, plane = seen_halves(context, obj), _plane(obj)
+
+    def moved_by(before: np.ndarray, seen: np.ndarray) -> np.ndarray:
+        """Where all is that goes with faces whose middles, (p, 3), were there before and are seen now."""
+        motions = rigid_motions(before, seen, area, decomposition.candidates, decomposition.n_candidates)
+        return motions.moved(rest, moved_with)
+
+    moved, both = moved_by(before, seen), seen_halves(context, obj)
+    plane = None if both is None else _plane(obj)
     if both is not None and plane is not None:
         stretch = store.stretch_of(obj.data)
         image = plane.mirrored(before @ stretch.T) @ bridge.unstretch(stretch).T
-        motions = rigid_motions(image, _face_means(obj, both[1]), area, candidates, n_candidates)
         mean = plane.heights(before @ stretch.T).mean()
         # What lies in the plane goes with the mesh itself.
         beyond = plane.heights(rest @ stretch.T) * mean < -_RESTS * mean**2
-        moved[beyond] = motions.moved(rest[beyond], moved_with[beyond])
+        moved = np.where(beyond[:, None], moved_by(image, _face_means(obj, both[1])), moved)
     size = np.ptp(before, axis=0).max()
     return rest if np.abs(moved - rest).max(initial=0.0) <= _RESTS * size else moved
 
