@@ -125,7 +125,8 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     given : PolygonMesh. together : bool. Returns the same surface, with quadrilaterals ``divided_by_shape``, and where
     its elements are in the one given.
     """
-    given = replace(given, triangles=divided_by_shape(given.triangles, given.polygon))
+    if given.n_polygons < given.triangles.n_faces:
+        given = replace(given, triangles=divided_by_shape(given.triangles, given.polygon))
     place = _places(given.triangles)
     ordering = _by_place(_at_places(given.triangles, place), given.polygon, given.n_polygons, together)
     if len(ordering.vertex) < len(place):
