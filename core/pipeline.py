@@ -29,7 +29,7 @@ from .result.component_results import ComponentResult
 from .result.decomposition import Decomposition
 from .result.half import of_half
 from .surface.coarsening import Pyramid
-from .surface.ordering import sorted_by_place
+from .surface.ordering import Ordering, sorted_by_place
 from .surface.orientation import without_copies
 from .surface.preparation import Component, WorkingMesh, bodies, repair
 from .symmetry.halves import completed, plane_of
@@ -119,7 +119,11 @@ def decompose(
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
             given, hint = without_copies(given, copies), hint[copies.polygon] if len(hint) else hint
     if plane is None:
-        result = _decomposed(given, hint, parameters, watch, model, join_model)
+        with watch.stage("mesh", 0.4 * MESH_SHARE):
+            # From here on the unsorted mesh and its tables are free.
+            given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)
+            hint = hint[ordering.polygon] if len(hint) else hint
+        result = _decomposed(given, ordering, hint, parameters, watch, model, join_model)
     else:
         whole = completed(given, plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent]))
         result = of_half(decompose(
@@ -129,16 +133,11 @@ def decompose(
 
 
 def _decomposed(
-    given: PolygonMesh, hint: np.ndarray, parameters: Parameters, watch: Stopwatch, model: BoostedTrees | None,
-    join_model: JoinModel | None,
+    given: PolygonMesh, ordering: Ordering, hint: np.ndarray, parameters: Parameters, watch: Stopwatch,
+    model: BoostedTrees | None, join_model: JoinModel | None,
 ) -> Decomposition:
-    """The result for a mesh without copies; hint : (p,) int64 or (0,). All else is as in ``decompose``."""
+    """The result for a sorted mesh without copies; hint : (p,) int64 or (0,). All else is as in ``decompose``."""
     with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
-        done_of_mesh(0.1)
-        # From here on the unsorted mesh and its tables are free.
-        given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)
-        hint = hint[ordering.polygon] if len(hint) else hint
-        done_of_mesh(0.4)
         working = repair(given)
         done_of_mesh(0.9)
         chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)

@@ -46,6 +46,12 @@ def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
     return copy
 
 
+def sealed(array: np.ndarray) -> np.ndarray:
+    """Make an array that was just made, and that nobody else has, read-only: ``frozen`` without a copy."""
+    array.flags.writeable = False
+    return array
+
+
 def rounded_order(values: np.ndarray) -> np.ndarray:
     """Sort numbers, (n,) float64, that are equal where they differ by rounding only; equal ones as they are.
 
@@ -69,7 +75,8 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
     Notes
     -----
     Each way is the fastest for the keys that it is for. Where no other is, each number is sorted together with its
-    place, packed into one integer, which NumPy does up to ten times faster than it finds their order.
+    place, packed into one integer, which NumPy does up to ten times faster than it finds their order. Keys of too many
+    bits are sorted by their first ones, and those alike in these once more.
     """
     if len(keys) < 2_000:
         return np.argsort(keys, kind="stable")
@@ -81,7 +88,17 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
         return np.argsort((keys - least).astype(np.uint16), kind="stable")
     if most - least < len(keys) and (order := _counted_order(keys - least, most - least + 1)) is not None:
         return order
-    return _packed_order(keys - least, (most - least).bit_length())
+    keys, width = keys - least, (most - least).bit_length()
+    further = width + (len(keys) - 1).bit_length() - 63
+    if further <= 0:
+        return _packed_order(keys, width)
+    first = keys >> further
+    order = _packed_order(first, width - further)
+    begins = begins_run(first[order])
+    tied = np.flatnonzero(~begins | ~np.append(begins[1:], True))
+    some = order[tied]
+    order[tied] = some[_packed_order(keys[some], width)]
+    return order
 
 
 def _counted_order(keys: np.ndarray, count: int) -> np.ndarray | None:

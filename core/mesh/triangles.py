@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import begins_run, frozen, renumbered, stable_order, sums_by, taken
-from ..arrays.pairs import edge_keys
+from ..arrays.indexing import begins_run, frozen, renumbered, sealed, stable_order, sums_by, taken
 from ..arrays.vectors import cross, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
@@ -226,7 +225,7 @@ class TriMesh:
     @cached_property
     def edges(self) -> EdgeTable:
         """Every edge once, and the faces that meet there."""
-        return EdgeTable.of(self.faces, self.n_vertices)
+        return EdgeTable.of(self.faces)
 
     @cached_property
     def edge_length(self) -> np.ndarray:
@@ -336,35 +335,31 @@ class EdgeTable:
     pair_sides: np.ndarray
 
     @classmethod
-    def of(cls, faces: np.ndarray, n_vertices: int) -> EdgeTable:
+    def of(cls, faces: np.ndarray) -> EdgeTable:
         """Make the table of the edges of some faces.
 
-        faces : (m, 3) int64, 0..n_vertices-1. Returns an EdgeTable.
+        faces : (m, 3) int64, 0 or more. Returns an EdgeTable.
         """
-        start, end = faces, np.roll(faces, -1, axis=1)
-        # NumPy sorts sides that are packed into one integer far faster than rows.
-        key = edge_keys(start, end, count=n_vertices).ravel()
-        order = stable_order(key)
-        key = key[order]
-        begins = begins_run(key)
-        together = ~begins[1:]
-        first_of_edge = np.flatnonzero(begins)
+        start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+        low, high = np.minimum(start, end), np.maximum(start, end)
+        order = stable_order(high)
+        order = order[stable_order(low[order])]
+        low, high = low[order], high[order]
+        begins = begins_run(low) | begins_run(high)
+        first_of_edge, together = np.flatnonzero(begins), np.flatnonzero(~begins[1:])
+        vertices = np.stack([low[first_of_edge], high[first_of_edge]], axis=1)
+        del low, high  # of a million vertices, each array is 50 MB
         edge_sorted = np.cumsum(begins) - 1
-        edge = np.empty(len(key), np.int64)
+        edge = np.empty(len(order), np.int64)
         edge[order] = edge_sorted
-        unique = key[first_of_edge]
-        count = np.diff(np.append(first_of_edge, len(key)))
-        sides = np.stack([order[:-1][together], order[1:][together]], axis=1)
+        sides, pair_edge = np.stack([order[together], order[together + 1]], axis=1), edge_sorted[together]
+        del order, edge_sorted
         pairs = sides // 3
         distinct = pairs[:, 0] != pairs[:, 1]
-        return cls(
-            vertices=frozen(np.stack(np.divmod(unique, max(n_vertices, 1)), axis=1), np.int64),
-            face_edges=frozen(edge.reshape(-1, 3), np.int64),
-            n_faces=frozen(count, np.int64),
-            pairs=frozen(taken(pairs, distinct), np.int64),
-            pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
-            pair_sides=frozen(taken(sides, distinct), np.int64),
-        )
+        if not distinct.all():
+            pairs, sides, pair_edge = pairs[distinct], sides[distinct], pair_edge[distinct]
+        count = np.diff(np.append(first_of_edge, len(begins)))
+        return cls(*map(sealed, (vertices, edge.reshape(-1, 3), count, pairs, pair_edge, sides)))
 
     def opposite_sides(self, chosen: np.ndarray) -> np.ndarray:
         """The side of the other face of a pair at each side of a face, (3 m,) int64; -1 at sides of no chosen pair.

@@ -74,7 +74,7 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
     chosen : (s, 3) int64 or None
         Counterclockwise; None unless the curves are all that bounds them.
     """
-    table, edges = EdgeTable.of(triangles, len(flat)), np.sort(edges, axis=1)
+    table, edges = EdgeTable.of(triangles), np.sort(edges, axis=1)
     wall = are_among(table.vertices, edges)
     open_ = wall[table.pair_edge]
     count, label = components(len(triangles), *table.pairs[~open_].T)
@@ -94,6 +94,6 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
     a, b, c = flat[chosen].transpose(1, 0, 2)
     turn = cross_in_plane(b - a, c - a)
     chosen = np.where(turn[:, None] > 0, chosen, chosen[:, ::-1])
-    table = EdgeTable.of(chosen, len(flat))
+    table = EdgeTable.of(chosen)
     same = np.array_equal(table.vertices[table.n_faces == 1], distinct_pairs(*edges.T)[0])
     return chosen if same else None

@@ -91,7 +91,7 @@ def _shared_faces(
 
 def _rims(triangles: np.ndarray) -> np.ndarray:
     """The edges of some triangles that one of them has, (s, 2)."""
-    table = EdgeTable.of(triangles, int(triangles.max(initial=-1)) + 1)
+    table = EdgeTable.of(triangles)
     return table.vertices[table.n_faces == 1]
 
 

@@ -364,7 +364,7 @@ def _triangulated(rims: _Rims, inner: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 def _joining(triangles: np.ndarray, k: int) -> np.ndarray:
     """Edges inside that join two points of the curve, (j, 2)."""
-    table = EdgeTable.of(triangles, int(triangles.max(initial=-1)) + 1)
+    table = EdgeTable.of(triangles)
     return table.vertices[(table.n_faces == 2) & (table.vertices < k).all(axis=1)]
 
 

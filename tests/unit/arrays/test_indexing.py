@@ -57,6 +57,12 @@ def test_equal_numbers_stay_in_their_order(low, high, n):
     assert (stable_order(keys) == np.argsort(keys, kind="stable")).all()
 
 
+def test_numbers_alike_in_their_first_digits_are_told_apart_by_the_last():
+    random = np.random.default_rng(0)
+    keys = (random.integers(0, 5_000, 100_000) << 49) + random.integers(0, 3, 100_000)
+    assert (stable_order(keys) == np.argsort(keys, kind="stable")).all()
+
+
 def test_the_order_of_numbers_does_not_need_scipy(monkeypatch):
     keys = np.random.default_rng(0).integers(0, 90_000, 100_000)
     monkeypatch.setitem(sys.modules, "scipy.sparse", None)

@@ -79,7 +79,7 @@ def test_vertices_that_do_not_exist_are_listed(wrong):
 
 
 def test_edges_of_two_triangles_by_hand():
-    edges = EdgeTable.of(np.array([(0, 1, 2), (2, 1, 3)]), 4)
+    edges = EdgeTable.of(np.array([(0, 1, 2), (2, 1, 3)]))
     assert edges.vertices.tolist() == [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]
     assert edges.face_edges.tolist() == [[0, 2, 1], [2, 3, 4]]
     assert edges.n_faces.tolist() == [1, 1, 2, 1, 1]
@@ -88,13 +88,13 @@ def test_edges_of_two_triangles_by_hand():
 
 
 def test_three_faces_at_an_edge_are_chained():
-    edges = EdgeTable.of(np.array([(0, 1, 2), (0, 1, 3), (1, 0, 4)]), 5)
+    edges = EdgeTable.of(np.array([(0, 1, 2), (0, 1, 3), (1, 0, 4)]))
     assert edges.n_faces.max() == 3
     assert edges.pairs.tolist() == [[0, 1], [1, 2]]
 
 
 def test_a_face_with_a_repeated_vertex_does_not_touch_itself():
-    edges = EdgeTable.of(np.array([(0, 0, 1), (0, 1, 2)]), 3)
+    edges = EdgeTable.of(np.array([(0, 0, 1), (0, 1, 2)]))
     assert (edges.pairs[:, 0] != edges.pairs[:, 1]).all()
 
 
