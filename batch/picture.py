@@ -210,7 +210,7 @@ def _add_floor(points: np.ndarray, extent: float, collection: bpy.types.Collecti
     floor = bpy.data.meshes.new("floor")
     center, reach = points.mean(axis=0), 20.0 * extent
     square = [(x * reach + center[0], y * reach + center[1], points[:, 2].min())
-              for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]  # fmt: skip
+              for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     floor.from_pydata(square, [], [(0, 1, 2, 3)])
     _place(floor, "floor", collection, made).is_shadow_catcher = True
 
@@ -233,7 +233,7 @@ def _add_camera(scene: bpy.types.Scene, points: np.ndarray, view: Sequence[float
     half = np.array([1.0, size[1] / size[0]]) * wide / margin
     middle = [(x.max() + x.min()) / 2, (y.max() + y.min()) / 2]
     distance = max((z + np.abs(across - at) / tangent).max()
-                   for across, at, tangent in zip((x, y), middle, half, strict=True))  # fmt: skip
+                   for across, at, tangent in zip((x, y), middle, half, strict=True))
     camera.clip_start = 1e-3 * (distance - z.max())
     camera.clip_end = 1e4 * distance
     position = turn @ Vector((*middle, distance))

@@ -41,7 +41,7 @@ def main() -> int:
     parser.add_argument("meshes", nargs="+", type=Path, metavar="MESHES")
     parser.add_argument("out", type=Path, metavar="OUT")
     parser.add_argument("--preset", choices=list(PRESETS), default=next(iter(PRESETS)), metavar="NAME",
-                        help=f"one of: {', '.join(PRESETS)}; default: %(default)s")  # fmt: skip
+                        help=f"one of: {', '.join(PRESETS)}; default: %(default)s")
     parser.add_argument("--detail", type=float, metavar="D", help="0..1, instead of the preset's")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="meshes at a time, default 1")
     arguments = parser.parse_args()
@@ -99,7 +99,7 @@ def label_mesh(path: Path, out: Path, parameters: Parameters) -> dict:
     return {
         "mesh": path.stem, "vertices": len(vertices), "faces": len(faces), "parts": int(labels.max()) + 1,
         "total seconds": round(sum(result.seconds.values()), 4), **seconds,
-    }  # fmt: skip
+    }
 
 
 def write_times(path: Path, rows: list[dict]) -> None:

@@ -59,7 +59,7 @@ TABLE_1 = (
 FINE = 0.01  # threshold of small regions in Fig. 10
 OF_FIG_10 = ("Human", "Hand")
 FIG_11 = {"noise": "noise, 20 % of an edge", "smoothing, 10 steps": "10 steps of smoothing",
-          "simplification to 10 %": "decimated to 10 %"}  # fmt: skip
+          "simplification to 10 %": "decimated to 10 %"}
 
 
 def main() -> int:
@@ -196,7 +196,7 @@ def page(rows: list[dict], varied: dict[str, dict]) -> str:
         "![Parts against people's number](images/comparison/parts.svg)", "",
         "![Seconds against vertices](images/comparison/seconds.svg)", "",
         *NOTES,
-    ]  # fmt: skip
+    ]
     return "\n".join(text).rstrip() + "\n"
 
 

@@ -117,7 +117,7 @@ def one_row(data: Path, number: int, method: str, out: Path) -> dict:
         "vertices": mesh.n_vertices, "people": told, "parts": len(np.unique(labels)), "candidates": candidates,
         "loops": loops, "seconds": seconds, **score(mesh, labels, people),
         **{f"told_{name}": value for name, value in score(mesh, by_number, people).items()},
-    }  # fmt: skip
+    }
     path.parent.mkdir(parents=True, exist_ok=True)
     np.save(path.with_suffix(".npy"), np.unique(labels, return_inverse=True)[1].reshape(-1).astype(np.int32))
     # The row is written last: where it is, the labels are.

@@ -24,7 +24,7 @@ MEASURES = {
     "error": ("Rand index error", False), "agreement": ("agreement (12)", True), "hamming": ("Hamming", False),
     "missing": ("Rm", False), "false_alarm": ("Rf", False), "global_error": ("GCE", False),
     "local_error": ("LCE", False), "discrepancy": ("cut discrepancy", False), "miou": ("mean IoU", True),
-}  # fmt: skip
+}
 
 
 def score(mesh: TriMesh, labels: np.ndarray, people: np.ndarray) -> dict[str, float]:
@@ -46,7 +46,7 @@ def score(mesh: TriMesh, labels: np.ndarray, people: np.ndarray) -> dict[str, fl
             "global_error": global_error, "local_error": local_error,
             "discrepancy": cut_discrepancy(mesh, labels, person),
             "miou": mean_intersection_over_union(labels, person, mesh.face_area),
-        })  # fmt: skip
+        })
     return {name: mean(row[name] for row in rows) for name in MEASURES}
 
 

@@ -60,7 +60,7 @@ def main() -> int:
     rows = []
     for size in SIZES:
         command = [sys.executable, __file__, "--size", str(size), "--repeat", str(arguments.repeat),
-                   "--preset", arguments.preset]  # fmt: skip
+                   "--preset", arguments.preset]
         rows.append(json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout))
         _print_row(rows[-1], header=len(rows) == 1)
     if arguments.out:
@@ -68,7 +68,7 @@ def main() -> int:
     target = next(row for row in rows if row["vertices"] == TARGET_VERTICES)
     met = target["seconds"] < TARGET_SECONDS and target["peak GB"] < TARGET_GIGABYTES
     print(f"{TARGET_VERTICES:,} vertices: {target['seconds']:.2f} s and {target['peak GB']:.2f} GB, "
-          f"target {TARGET_SECONDS} s and {TARGET_GIGABYTES} GB: {'met' if met else 'missed'}")  # fmt: skip
+          f"target {TARGET_SECONDS} s and {TARGET_GIGABYTES} GB: {'met' if met else 'missed'}")
     return 1 if arguments.check and not met else 0
 
 
@@ -86,7 +86,7 @@ def measure(size: int, preset: str, repeat: int) -> dict:
         **{f"s {stage}": seconds for stage, seconds in fastest.seconds.items()},
         "us per face": 1e6 * total / len(faces), "yardstick": yardstick, "of yardstick": total / yardstick,
         "peak GB": peak,
-    }  # fmt: skip
+    }
 
 
 def dijkstra_seconds(vertices: np.ndarray, faces: np.ndarray) -> float:
@@ -125,7 +125,7 @@ def _write(path: Path, rows: list[dict]) -> None:
     where = {
         "commit": commit, "machine": platform.machine(), "cores": os.cpu_count(),
         "python": platform.python_version(), "numpy": np.__version__, "scipy": scipy.__version__,
-    }  # fmt: skip
+    }
     with path.open("w", newline="") as file:
         table = csv.DictWriter(file, [*rows[0], *where])
         table.writeheader()

@@ -14,7 +14,7 @@ KEEP = {"hide": False, "center": False}  # beside the object, in its place
 WHOLE = {"cut": "FACES"}  # faces stay whole, so that those of the pieces can be compared with those of the object
 # Of types of attributes, what their values are called and how many there are.
 WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
-         "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
+         "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}
 KEYS = ("Fat", "Long")
 _INDEX = {"POINT": "vertices", "EDGE": "edges", "FACE": "polygons", "CORNER": "loops"}
 
@@ -60,7 +60,7 @@ def furnish(obj):
     for name, kind, domain, key, width in (
         ("Paint", "BYTE_COLOR", "CORNER", "color_srgb", 4), ("Dust", "FLOAT_COLOR", "POINT", "color", 4),
         ("crease_edge", "FLOAT", "EDGE", "value", 1), ("layer", "INT", "FACE", "value", 1),
-    ):  # fmt: skip
+    ):
         values = rng.random(width * len(getattr(mesh, _INDEX[domain])))
         attribute = mesh.attributes.new(name, kind, domain)
         attribute.data.foreach_set(key, (1000 * values).astype(np.int32) if kind == "INT" else np.float32(values))
@@ -106,7 +106,7 @@ def compare(obj, pieces) -> Pieces:
     together = sum(_volume(piece.data, np.ones(len(piece.data.polygons), bool)) for piece in pieces)
     return Pieces(len(faces), int((faces != 1).sum()), sums.total["caps"], sums.total["new_borders"],
                   sums.total["new_branches"], float(area / whole - 1), sums.most,
-                  together / volume - 1, _voids(pieces) / abs(volume))  # fmt: skip
+                  together / volume - 1, _voids(pieces) / abs(volume))
 
 
 def rims(meshes, size) -> tuple[float, float]:
@@ -171,7 +171,7 @@ def elements(mesh, mask):
         "FACE": np.flatnonzero(mask), "CORNER": np.flatnonzero(corner),
         "POINT": np.unique(read(mesh.loops, "vertex_index", np.int32)[corner]),
         "EDGE": np.unique(read(mesh.loops, "edge_index", np.int32)[corner]),
-    }  # fmt: skip
+    }
 
 
 def borders(mesh):

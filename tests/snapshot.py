@@ -17,7 +17,7 @@ _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT2": ("vector", np.float32, 2), "BYTE_COLOR": ("color_srgb", np.float32, 4),
     "FLOAT_COLOR": ("color", np.float32, 4), "INT32_2D": ("value", np.int32, 2),
     "INT16_2D": ("value", np.int32, 2),
-}  # fmt: skip
+}
 BRUSHES = "essentials_brushes"  # Blender's own, loaded when a mode for painting is entered
 _KINDS = ("objects", "meshes", "collections", "materials", "curves", "armatures", "shape_keys", "node_groups",
           "actions", "images", "texts", "libraries")
@@ -45,7 +45,7 @@ def snapshot() -> dict:
         "nodes": {group.name: _nodes(group) for group in bpy.data.node_groups},
         "active": getattr(layer.objects.active, "name", None),
         "selected": sorted(obj.name for obj in layer.objects.selected),
-    }  # fmt: skip
+    }
 
 
 def activate(obj):
@@ -130,7 +130,7 @@ def _geometry(mesh, user) -> dict:
         "weights": _weights(mesh, user),
         "keys": _keys(mesh.shape_keys) if mesh.shape_keys else None,
         "materials": [m.name if m else None for m in mesh.materials],
-    }  # fmt: skip
+    }
 
 
 def _material(material) -> dict:

@@ -29,7 +29,7 @@ ATTRIBUTES = {
     "vertex": dict.fromkeys("xyz", NUMBER), "triangle": dict.fromkeys(("v1", "v2", "v3"), "[0-9]+"),
     "component": {"objectid": r"[1-9][0-9]*"}, "item": {"objectid": r"[1-9][0-9]*",
                                                         "transform": f"{NUMBER}( {NUMBER}){{11}}"},
-}  # fmt: skip
+}
 
 
 @dataclass

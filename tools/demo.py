@@ -64,7 +64,7 @@ def _run(python: Path, model: Path, arguments: argparse.Namespace) -> bool:
         str(python), str(ROOT / "tools" / "in_blender.py"), str(model), "--save", f"{stem}.blend",
         "--json", f"{stem}.json", "--picture", f"{stem}.png", "--picture-turn", str(turn),
         *(["--detail", arguments.detail] if arguments.detail else []),
-    ]  # fmt: skip
+    ]
     with tempfile.TemporaryDirectory() as settings:
         variables = {**os.environ, "BLENDER_USER_RESOURCES": settings}
         # Its one JSON object on standard output is in the file as well.

@@ -79,7 +79,7 @@ def _page(rows: list[list[str]]) -> str:
         "",
         f"| {' | '.join(titles)} |", "|" + " --- |" * len(titles),
         *(f"| {' | '.join(cells)} |" for cells in rows),
-    ]  # fmt: skip
+    ]
     return "\n".join(lines) + "\n"
 
 

@@ -116,7 +116,7 @@ def decompose_and_picture(
         command = [
             str(python), str(checkout / "tools" / "in_blender.py"), str(path),
             "--picture", str(image), "--picture-size", size, *options,
-        ]  # fmt: skip
+        ]
         variables = {**os.environ, "BLENDER_USER_RESOURCES": settings}
         done = subprocess.run(command, check=False, capture_output=True, text=True, env=variables)
     if done.returncode:
@@ -132,7 +132,7 @@ def _page(presets: list[str], reports: dict) -> str:
         "the Reeb graph: black balls are minima of the field (the middle of the body), yellow ones saddles, white "
         "ones maxima (the tips). With another version of SciPy, Liu 2007 may give a part or two more or fewer.",
         "",
-    ]  # fmt: skip
+    ]
     for model in MODELS:
         lines += [f"## {model.title}", f"{model.origin}.", ""]
         lines += [f"| {' | '.join(presets)} |", "|" + " --- |" * len(presets)]
@@ -151,7 +151,7 @@ def _facts(objects: list[dict]) -> str:
             lambda entry: entry["vertices"], lambda entry: entry["faces"], lambda entry: len(entry["parts"]),
             lambda entry: len(entry["graph"]["nodes"]), lambda entry: entry["graph"]["loops"],
         )
-    )  # fmt: skip
+    )
     loops = f"{loops} loop" + ("" if loops == 1 else "s")
     return f"{vertices:,} vertices, {faces:,} faces: {parts} parts; graph of {nodes} nodes with {loops}"
 

@@ -125,7 +125,7 @@ def main() -> None:
     parser.add_argument("--blender", metavar="PATH", help="also build, install and test in this full Blender")
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
     parser.add_argument("--brief", action="store_true",
-                        help="try each test in some of the versions, and half of many cases")  # fmt: skip
+                        help="try each test in some of the versions, and half of many cases")
     parser.add_argument("--fuzz", type=float, metavar="MINUTES", help="run the harness of tests/fuzz for so long")
     jobs = (os.cpu_count() or 1) + 1
     parser.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"steps at a time, default {jobs}")
@@ -347,7 +347,7 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
         say("build: tools/build.py, and into the full Blender")
         python = _prepare(NEWEST)
         commands = [[sys.executable, str(ROOT / "tools" / "build.py"), "--blender", blender],
-                    [python, *runner, "--part", "install", "--resources", str(resources)]]  # fmt: skip
+                    [python, *runner, "--part", "install", "--resources", str(resources)]]
         failed = any(_call(command, log) for command in commands)
         return int(not failed), int(failed)
 

@@ -74,7 +74,7 @@ def _segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:
     bare = graph.arcs[(np.diff(graph.arc_points) == 0) & arcs]
     return np.concatenate([
         inner, bare, np.stack([graph.arcs[full, 0], first], axis=1), np.stack([last, graph.arcs[full, 1]], axis=1),
-    ]).astype(np.int64)  # fmt: skip
+    ]).astype(np.int64)
 
 
 def nearest(points: np.ndarray, segments: np.ndarray, target: np.ndarray) -> tuple[int, float, float]:

@@ -40,7 +40,7 @@ NAMES = (
     "log_share", "field_10", "field_50", "field_90", "depth_50", "depth_90", "depth_100", "log_radius_10",
     "log_radius_50", "log_radius_90", "log_length", "log_width", "log_height", "apart_50", "apart_90",
     "cut_length", "n_neighbors", "n_leaves", "n_arcs", "neighbor_share", "neighbor_field", "hops", "has_twin",
-)  # fmt: skip
+)
 """Columns of a descriptor.
 
 ``share`` of the area; quantiles of the ``field``, of the ``depth``, the geodesic distance from the cuts, of the
@@ -56,7 +56,7 @@ SCALE = np.array([
     0.27, 0.11, 0.12, 0.15, 0.13, 0.25, 0.28, 0.39,
     0.28, 0.36, 0.17, 0.21, 0.21, 0.05, 0.13,
     0.74, 0.23, 0.21, 0.30, 0.12, 0.09, 0.23, 0.28,
-])  # fmt: skip
+])
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,13 +24,13 @@ MODELS = pa.schema([
     ("area", pa.float64()), ("nodes", pa.int64()), ("arcs", pa.int64()), ("loops", pa.int64()),
     ("components", pa.int64()), ("up", pa.string()), ("seconds", pa.float64()), ("notes", pa.list_(pa.string())),
     ("files", pa.list_(pa.string())), ("digest", pa.string()), ("settings", pa.string()),
-])  # fmt: skip
+])
 PARTS = pa.schema([
     ("model", pa.string()), ("index", pa.int64()), ("number", pa.int64()), ("name", pa.string()),
     ("faces", pa.int64()), ("area", pa.float64()), ("share", pa.float64()), ("color", pa.list_(pa.float64())),
     ("bounding_box", pa.list_(pa.list_(pa.float64()))), ("neighbours", pa.list_(pa.int64())), ("twin", pa.int64()),
     ("descriptor", pa.list_(pa.float64())),
-])  # fmt: skip
+])
 
 
 def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -> tuple[Path, Path]:

@@ -30,7 +30,7 @@ _PASSING = {
     "active_material_index", "active_shape_key_index", "show_expanded", "show_group_selector", "show_manage_panel",
     "open_warnings_panel", "motion_path", "point_cache", "bone", "child", "object1", "object2",
     "bake_target", "fuzzy", "ShapeKey.points",
-}  # fmt: skip
+}
 # Of an object, what has settings of its own, of which there are several, and of which there is one.
 _PARTS = "modifiers", "constraints", "vertex_groups", "material_slots"
 _SINGLE = "display", "light_linking", "lineart", "field"
@@ -49,13 +49,13 @@ _ON = {
     "use_scale_x", "use_scale_y", "use_scale_z", "use_relative_location", "use_curve_radius", "lock_location_x",
     "lock_location_y", "lock_location_z", "lock_rotation_x", "lock_rotation_y", "lock_rotation_z",
     "use_clamp_overlap", "loop_slide", "use_limit_surface", "use_mirror_merge",
-}  # fmt: skip
+}
 _FROM_THE_START: dict[str, Any] = dict.fromkeys(_ON, 1) | {
     "use_add": 0, "use_axis": [1, 0, 0], "delimit": [], "data_types_verts": [], "data_types_edges": [],
     "data_types_loops": [], "data_types_polys": [], "rotation_range": "NX", "up_axis": "UP_Y",
     "display_type": "ARMATURE_DEFINED", "edge_weight": "bevel_weight_edge", "vertex_weight": "bevel_weight_vert",
     "read_data": ["ATTRIBUTES", "COLOR", "POLY", "UV", "VERT"],
-}  # fmt: skip
+}
 # Blender 5.3 tells the true defaults of constraints and bones. What all Blenders before it told, most of it nothing, is
 # what counts, also for names that mean something else elsewhere.
 _NOTHING = {
@@ -65,14 +65,14 @@ _NOTHING = {
     "use_active_clip", "use_location", "use_original_scale", "use_stretch", "use_tail",
     "KinematicConstraint.weight", "KinematicConstraint.iterations", "MaintainVolumeConstraint.volume",
     *(f"Copy{what}Constraint.use_{axis}" for what in ("Location", "Rotation", "Scale") for axis in "xyz"),
-}  # fmt: skip
+}
 _FROM_THE_START |= dict.fromkeys(_NOTHING, 0) | {
     "transform_channel": "ROTATION_X", "floor_location": "FLOOR_X", "lock_axis": "LOCK_X", "free_axis": "SAMEVOL_X",
     "project_axis": "POS_X", "project_axis_space": "WORLD", "y_scale_mode": "NONE", "keep_axis": "PLANE_X",
     "map_to_y_from": "X", "map_to_z_from": "X", "Object.track_axis": "POS_X", "TrackToConstraint.track_axis": "TRACK_X",
     "DampedTrackConstraint.track_axis": "TRACK_X", "LockedTrackConstraint.track_axis": "TRACK_X",
     "FollowPathConstraint.forward_axis": "FORWARD_X", "ObjectLineArt.crease_threshold": 2.4434609413146973,
-}  # fmt: skip
+}
 
 
 def digest(item: bpy.types.Object, n_collections: int) -> str:

@@ -24,7 +24,7 @@ from . import colors, face_attribute, face_sets, field, materials, seams, vertex
 OUTPUTS = {
     "vertex_groups": vertex_groups, "face_attribute": face_attribute, "colors": colors, "field": field,
     "face_sets": face_sets, "materials": materials, "seams": seams,
-}  # fmt: skip
+}
 
 
 def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.ndarray, outputs: Any) -> None:

@@ -23,7 +23,7 @@ _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT4": ("vector", np.float32, 4), "BYTE_COLOR": ("color_srgb", np.float32, 4),
     "FLOAT_COLOR": ("color", np.float32, 4), "INT32_2D": ("value", np.int32, 2), "INT16_2D": ("value", np.int32, 2),
     "QUATERNION": ("value", np.float32, 4), "FLOAT4X4": ("value", np.float32, 16),
-}  # fmt: skip
+}
 
 _KEPT_IN = {  # where Blender 5 keeps a property of elements: name, type and domain of the attribute
     ("polygons", "hide"): (".hide_poly", "BOOLEAN", "FACE"),
@@ -35,7 +35,7 @@ _KEPT_IN = {  # where Blender 5 keeps a property of elements: name, type and dom
     ("edges", "use_edge_sharp"): ("sharp_edge", "BOOLEAN", "EDGE"),
     ("vertices", "hide"): (".hide_vert", "BOOLEAN", "POINT"),
     ("vertices", "select"): (".select_vert", "BOOLEAN", "POINT"),
-}  # fmt: skip
+}
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _joined_faces: dict[tuple, CornerTable | None] = {}  # None where nothing has to be joined

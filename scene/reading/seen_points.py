@@ -17,7 +17,7 @@ _MOVE = {
     "LAPLACIANSMOOTH", "LATTICE", "MESH_CACHE", "MESH_DEFORM", "NORMAL_EDIT", "SHRINKWRAP", "SIMPLE_DEFORM", "SMOOTH",
     "SOFT_BODY", "SURFACE_DEFORM", "UV_PROJECT", "UV_WARP", "VERTEX_WEIGHT_EDIT", "VERTEX_WEIGHT_MIX",
     "VERTEX_WEIGHT_PROXIMITY", "WARP", "WAVE", "WEIGHTED_NORMAL",
-}  # fmt: skip
+}
 _DIVIDE = {"MULTIRES", "SUBSURF"}
 
 _counts: dict[int, int] = {}  # by session_uid of objects: how often they were evaluated anew

@@ -48,6 +48,6 @@ seen = {
     "labels": labels.tolist(), "detail": round(result.detail, 6), "levels": levels,
     "nodes": [[*(round(x, 5) for x in item.location), item["part"]]
               for item in bpy.data.objects if item.get("reeb_parts_role") == "node"],
-}  # fmt: skip
+}
 (HERE / "saved_by_0_1_0.json").write_text(json.dumps(seen))
 bpy.ops.wm.save_as_mainfile(filepath=str(HERE / "saved_by_0_1_0.blend"), compress=True)

@@ -176,7 +176,7 @@ def test_a_model_that_has_changed_is_shown_as_it_was(models, tmp_path):
 
 @pytest.mark.parametrize(("part", "status", "words"), [
     ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply:²", 2, "must be the name of a model"),
-])  # fmt: skip
+])
 def test_a_part_that_is_not_there_is_said_not_to_be(part, status, words, batch, reeb_parts_command):
     done = reeb_parts_command("similar", batch[0], part)
     assert done.returncode == status
@@ -201,7 +201,7 @@ def test_tables_of_another_version_are_one_sentence(change, words, batch, tmp_pa
 @pytest.mark.parametrize(("page", "status", "words"), [
     ("parts.parquet", 2, "must end in .html or .htm"), ("index.html", 1, "index.html shows all models of the batch."),
     ("models/../index.html", 1, "index.html shows all models of the batch. Choose another name."),
-])  # fmt: skip
+])
 def test_a_page_is_not_written_over_the_results(page, status, words, batch, reeb_parts_command):
     before = {path: path.read_bytes() for path in batch[0].glob("*.*")}
     done = reeb_parts_command("similar", batch[0], "tree.ply:2", "--page", batch[0] / page)
@@ -265,7 +265,7 @@ def test_other_bytes_parameters_or_missing_files_are_not_done(batch, models, tmp
     ("fbx", None, "Say where it is with --blender"), ("blend", "/none", "could not be started: No such file"),
     ("xyz_", None, "is none of"), ("usdz", None, "Say where it is with --blender"),
     ("abc", None, "Say where it is with --blender"),
-])  # fmt: skip
+])
 def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     model = tmp_path / f"model.{suffix}"
     model.write_bytes(b"Kaydara")
@@ -340,7 +340,7 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
     (["--out", "OUT", "--dashboard", "http://host:80"], 2, "http://host:80 is no address such as 127.0.0.1:8787"),
     (["--out", "OUT", "--list", "-"], 1, "- could not be read: No such file or directory"),
     (["--out", "OUT", "--dashboard", ":99999"], 2, ":99999 is no address such as 127.0.0.1:8787"),
-])  # fmt: skip
+])
 def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models, reeb_parts_command, tmp_path):
     model = str(models / "tree.ply")
     places = {"MODEL": model, "OUT": str(tmp_path / "out")}
@@ -591,7 +591,7 @@ def test_a_blender_that_takes_too_long_leaves_nothing_in_the_temporary_folder(tm
 @pytest.mark.parametrize(("number", "words"), [
     (signal.SIGSEGV, "crashed (SIGSEGV): Fatal Python error: Segmentation fault"),
     (signal.SIGKILL, "was killed, perhaps for lack of memory"),
-])  # fmt: skip
+])
 def test_a_crash_is_recorded_with_its_reason(number, words, process, large, tmp_path):
     process.run(job(large, tmp_path / "first"), 0.01)  # a new process next time
 
@@ -977,7 +977,7 @@ def test_results_do_not_take_the_place_of_models(place, tree, tmp_path, monkeypa
 @pytest.mark.parametrize(("places", "root", "words"), [
     (["none"], None, "no file and no folder none"), (["x" * 300], None, "x could not be read: "),
     (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 model is"),
-])  # fmt: skip
+])
 def test_places_without_models_are_refused(places, root, words, models, tmp_path, monkeypatch):
     monkeypatch.chdir(models)
     with pytest.raises(SourceError, match=words):

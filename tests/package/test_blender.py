@@ -109,7 +109,7 @@ bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
     ("broken.fbx", None, "broken.fbx could not be read: "),
     ("broken.abc", None, "broken.abc could not be read: (it is damaged|this Blender was built without an importer)"),
     ("empty.blend", EMPTY, "There is no mesh in "),
-])  # fmt: skip
+])
 def test_why_blender_could_not_read_is_said(name, make, words, tmp_path):
     path = tmp_path / name
     path.write_bytes(b"no model")

@@ -120,7 +120,7 @@ def test_it_reads_its_options_without_docstrings(monkeypatch):
     (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x/../x.npy"], "would be written twice"),
     (["MODEL", "--json", "/proc/none/x.json"], "could not be written"),
     (["/dev/null"], "reeb-parts: /dev/null is no file but a pipe or a device: write the model to a file first."),
-])  # fmt: skip
+])
 def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, model, reeb_parts_command, tmp_path):
     before = model.read_bytes()
     places = {"MODEL": str(model), "OUT": str(tmp_path)}

@@ -44,7 +44,7 @@ def off(mesh):
 
 @pytest.mark.parametrize(("kind", "make"), [
     ("stl", ascii_stl), ("stl", binary_stl), ("ply", ply("ascii")), ("ply", ply("binary")), ("obj", obj), ("off", off),
-], ids=["stl", "binary stl", "ply", "binary ply", "obj", "off"])  # fmt: skip
+], ids=["stl", "binary stl", "ply", "binary ply", "obj", "off"])
 def test_names_and_comments_in_any_encoding(kind, make, tree, tmp_path):
     mesh = trimesh.Trimesh(*tree, process=False)
     (tmp_path / f"plain.{kind}").write_bytes(mesh.export(file_type=kind) if kind in ("stl", "ply")

@@ -103,7 +103,7 @@ def test_a_model_with_texture_coordinates_needs_no_other_packages_than_are_named
     lambda shape: (shape.vertices.tolist(), shape.faces.tolist()),
     lambda shape: (trimesh.Trimesh(*shape, process=False),),
     lambda shape: (reeb_parts.TriMesh(*shape),),
-], ids=["lists", "trimesh", "TriMesh"])  # fmt: skip
+], ids=["lists", "trimesh", "TriMesh"])
 def test_every_kind_of_mesh_gives_what_core_gives_for_its_arrays(mesh, tree):
     expected = decompose(*tree)
     result = reeb_parts.decompose(*mesh(tree))
@@ -325,7 +325,7 @@ def test_meshes_of_a_scene_come_in_their_places(tmp_path):
     ("damaged.ply", "ply\nformat nonsense", "could not be read"),
     ("empty.obj", "# nothing\n", "empty.obj"),
     ("scene.blend", "", "Blender only"),
-])  # fmt: skip
+])
 def test_what_cannot_be_read_gets_one_sentence(name, text, words, tmp_path):
     if text is not None:
         (tmp_path / name).write_text(text)

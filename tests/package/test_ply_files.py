@@ -48,7 +48,7 @@ def written(path, kind, faces=FACES, count="uchar", index="int", number="float",
     {}, {"count": "int", "index": "uint"}, {"index": "ushort", "number": "double", "name": "vertex_index"},
     {"more": ("red", "green", "blue"), "after": ("uchar red", "uchar green")},
     {"before": "short", "after": ("list uchar float texcoord", "int number")}, {"comment": "gelöscht"},
-], ids=["plain", "large lists", "small indices", "colors", "textures", "words"])  # fmt: skip
+], ids=["plain", "large lists", "small indices", "colors", "textures", "words"])
 def test_faces_of_several_sizes_are_polygons(kind, settings, tmp_path):
     """Those that Blender writes were refused: trimesh took all faces to have as many corners as the first."""
     model = reeb_parts.read_model(written(tmp_path / "house.ply", kind, **settings))

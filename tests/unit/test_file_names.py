@@ -14,7 +14,7 @@ from core.file_names import file_name, kind_of, readable, spelled
     ("Spot", "Spot"), ("a/b:c*d", "a_b_c_d"), (" .. ", "part"), ("trailing. ", "trailing"), ("x" * 300, "x" * 200),
     ("CON", "_CON"), ("nul", "_nul"), ("Aux.L", "_Aux.L"), ("com1", "_com1"), ("LPT9 .x", "_LPT9 .x"),
     ("Console", "Console"), ("com", "com"), ("com10", "com10"), (unicodedata.normalize("NFD", "ähre"), "ähre"),
-])  # fmt: skip
+])
 def test_names_are_such_as_every_file_system_takes(text, name):
     assert file_name(text, "part") == name
 

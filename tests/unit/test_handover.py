@@ -25,7 +25,7 @@ def content(value):
 @pytest.mark.parametrize("shape", [
     shapes.tube_tree(step=0.13), shapes.two_spheres(), shapes.with_fin(shapes.icosphere(2)), shapes.mirrored_figure(),
     shapes.with_unused_vertices(shapes.icosphere(2)), shapes.genus_two(),
-], ids=["tree", "pieces", "fin", "symmetric", "unused", "genus two"])  # fmt: skip
+], ids=["tree", "pieces", "fin", "symmetric", "unused", "genus two"])
 def test_results(shape, tmp_path):
     made = decompose(shape.vertices, shape.faces, Parameters(detail=0.7))
     handover.write_result(tmp_path, 3, made)
@@ -53,7 +53,7 @@ def test_requests(tmp_path):
     DisconnectedMeshError(Sentence("{share:.0%} of {name}", share=np.float64(1 / 3), name="ä {n}")),
     ParameterError(Sentence("{name} must be {low} to {high}", name="x", low=0.1, high=2), "x"),
     ReebError("plain words with {braces}"), Cancelled(),
-], ids=lambda error: type(error).__name__)  # fmt: skip
+], ids=lambda error: type(error).__name__)
 def test_errors(error):
     read = handover.error_of(json.loads(json.dumps(handover.plain_error(error))))
     assert type(read) is type(error)

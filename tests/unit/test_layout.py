@@ -77,7 +77,7 @@ def test_imports_are_resolved():
     assert imported(path, tree) == {
         ("core", "errors"), ("scene", "store"), ("scene", "outputs", "write"), ("bpy", "types"), ("numpy", "linalg"),
         ("scene", "outputs", "colors"), ("scene", "outputs"),
-    }  # fmt: skip
+    }
     tree = ast.parse("from ..core.errors import ReebError\nfrom . import decompose\nfrom ..meshes import face_colors")
     assert imported(Path("package/command/x.py"), tree) == {
         ("core", "errors"), ("package", "command", "decompose"), ("package", "meshes")}

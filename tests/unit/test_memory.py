@@ -42,6 +42,6 @@ def test_an_array_takes_the_place_of_one_that_was_freed():
     ("ImportError: _reordering.so: cannot map zero-fill pages", True),
     ("SystemError: error return without exception set", True),
     ("lost sys.stderr", True), ("Fatal Python error: Segmentation fault", False), ("", False),
-])  # fmt: skip
+])
 def test_a_lack_of_memory_has_many_words(words, lacks):
     assert lacks_memory(words) == lacks

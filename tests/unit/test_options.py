@@ -12,7 +12,7 @@ from core.options import number
 @pytest.mark.parametrize(("read", "text", "value"), [
     (number(16, 4096, int), "16", 16), (number(16, 4096, int), "4096", 4096), (number(0), "0.5", 0.5),
     (number(-1.5, 1.5), "-1.5", -1.5), (number(1, kind=int), "100000", 100_000),
-])  # fmt: skip
+])
 def test_numbers_in_their_range_are_taken(read, text, value):
     assert read(text) == value
     assert type(read(text)) is type(value)
@@ -26,7 +26,7 @@ def test_numbers_in_their_range_are_taken(read, text, value):
     (number(0), "", "must be a number, 0 or more, not "),
     (number(-36000.0, 36000.0), "1e9", "must be a number from -36000 to 36000, not 1e9"),
     (number(0, math.inf, int), "x", "must be a whole number, 0 or more, not x"),
-])  # fmt: skip
+])
 def test_others_are_one_sentence_with_the_range(read, text, words):
     with pytest.raises(argparse.ArgumentTypeError) as caught:
         read(text)

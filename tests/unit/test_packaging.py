@@ -86,7 +86,7 @@ HOLDERS = (
     "Enthought", "SciPy Developers", "The OpenBLAS Project", "The University of Tennessee", "Free Software Foundation",
     "The University of California Berkeley", "The University of Colorado Denver", "Quansight-Labs", "Rice University",
     "Max-Planck-Society", "Scilab Enterprises", "C.B. Barber",
-)  # fmt: skip
+)
 #: Lines that look as if they named one: patches to the way in which ARPACK is built elsewhere.
 NO_HOLDERS = {"Jordi Gutiérrez Hermoso (Octave patch)", "Sébastien Fabbro (gentoo patch)"}
 
@@ -108,7 +108,7 @@ def test_every_platform_has_one_wheel_for_every_official_blender(manifest, pytho
     platforms = [wheel_fields(wheel)[4] for wheel in manifest["wheels"] if wheel_fields(wheel)[2] == python]
     assert sorted(platforms) == [
         "macosx_10_13_x86_64", "macosx_12_0_arm64", "manylinux_2_17_x86_64.manylinux2014_x86_64", "win_amd64",
-    ]  # fmt: skip
+    ]
     assert len(platforms) == len(manifest["platforms"])
 
 

@@ -166,4 +166,4 @@ def scene_facts():
         if "reeb_part" in mesh.attributes else [],
         "collections": sorted(collection.name for collection in bpy.data.collections),
         "objects": sorted(obj.name for obj in bpy.data.objects),
-    }  # fmt: skip
+    }

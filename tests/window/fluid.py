@@ -86,7 +86,7 @@ def facts():
         "parts": len(mesh().reeb_parts.parts),
         "attributes": [a.name for a in mesh().attributes if a.name.lower().startswith("reeb")],
         "objects": [obj.name for obj in bpy.data.objects],
-    }  # fmt: skip
+    }
 
 
 def draw_little():

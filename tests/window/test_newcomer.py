@@ -82,4 +82,4 @@ def test_pictures_are_left(seen):
     assert {path.name for path in OUT.glob("*.png")} == {
         "1_add.png", "2_added.png", "3_tab.png", "4_decomposed.png", "5_separated.png", "6_horse_named.png",
         "7_horse_pieces.png", "8_horse_cut.png", "9_horse_65.png", "10_horse_10.png",
-    }  # fmt: skip
+    }

@@ -66,7 +66,7 @@ def test_a_stroke_with_a_larger_brush_gives_faces_to_the_active_part(seen):
     "pick undone", "several picks undone", "cut undone", "cut redone", "cut undone again", "paint undone",
     "paint redone", "paint undone again", "arc undone", "choice undone", "pick next door undone",
     "cut next door undone", "paint next door undone", "Detail undone", "Detail within Paint into undone",
-])  # fmt: skip
+])
 def test_undo_and_redo_are_exact(seen, name):
     assert seen[name] == []
 

@@ -64,4 +64,4 @@ def test_what_is_adjusted_in_edit_mode_is_the_part_that_was_chosen_there(seen):
 def test_pictures_are_left(seen):
     assert [path.name for path in sorted(OUT.glob("*.png"))] == [
         "1_tab.png", "2_decomposed.png", "3_undone.png", "4_redone.png", "5_adjusted.png",
-    ]  # fmt: skip
+    ]

@@ -30,7 +30,7 @@ def test_not_a_mesh(scene):
 
 
 @pytest.mark.parametrize("add", ["object.text_add", "object.metaball_add", "curve.primitive_bezier_circle_add",
-                                 "surface.primitive_nurbs_surface_sphere_add"])  # fmt: skip
+                                 "surface.primitive_nurbs_surface_sphere_add"])
 def test_what_can_be_made_a_mesh_of(add):
     group, name = add.split(".")
     getattr(getattr(bpy.ops, group), name)()

@@ -215,7 +215,7 @@ CASES = {
     "show_graph": Case(changes=("/settings",)),
     "find_similar": Case(prepare=choose(1)),
     "names_from_active": Case({"everywhere": True}, prepare=named_beside_a_copy),
-}  # fmt: skip
+}
 
 
 def duplicated(obj):

@@ -9,7 +9,7 @@ import pytest
 #: Settings of cuts that each method heeds besides the smoothing, as tests/unit/test_pipeline.py tries.
 OWN = {"perceptual": {"band_ratio", "follow_level_sets"},
        "berretti": {"small_region", "sigma", "concavity_weight", "band_ratio", "follow_level_sets"},
-       "lavoue": {"n_clusters"}, "liu": {"outline_weight"}}  # fmt: skip
+       "lavoue": {"n_clusters"}, "liu": {"outline_weight"}}
 
 
 @pytest.fixture

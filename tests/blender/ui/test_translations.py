@@ -83,7 +83,7 @@ def test_messages_are_found_where_they_are(wanted):
         ("*", "{n} border {n:edge|edges}: the surface is open there."), ("*", "distances"),
         ("*", "{n} {n:part is|parts are} {name} now"),
         ("Operator", "Seams"), ("*", "Which parts to use"), ("*", "Nothing is computed again"), ("*", "OBJ"),
-    }  # fmt: skip
+    }
     texts = "\n".join(f"{context}|{text}" for context, text in wanted)
     for context, text in some:
         assert re.search(rf"^{re.escape(context)}\|.*{re.escape(text)}", texts, re.MULTILINE), text
@@ -175,7 +175,7 @@ def test_no_text_is_made_where_nobody_can_translate_it(package):
     ('def f(self):\n    layout.label(text="parts")', 0),
     ('def f(self):\n    layout.label(text=f"{share:.1f} %")', 0),
     ('def f(self):\n    raise MeshError(Sentence("{n} parts", n=3))', 0),
-])  # fmt: skip
+])
 def test_text_that_nobody_can_translate_is_found(code, found):
     assert len(messages.made_here({"ui/x.py": messages.ast.parse(code)})) == found
 

@@ -32,7 +32,7 @@ def test_all_settings_are_shown_where_all_count():
 @pytest.mark.parametrize(("system", "scale", "words"), [
     ("METRIC", 1.0, "8.363 mm"), ("METRIC", 0.001, "8.363 µm"), ("IMPERIAL", 1.0, "329.3 thou"),
     ("NONE", 1.0, "0.008363"),
-])  # fmt: skip
+])
 def test_how_thick_a_piece_is_stands_in_the_units_of_the_scene(package, system, scale, words):
     """A bare 0.008363 stood beside joints in millimeters, in a scene in inches."""
     units = bpy.context.scene.unit_settings

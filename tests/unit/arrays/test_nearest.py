@@ -14,7 +14,7 @@ POINTS = {
     "on a grid": RNG.permutation(np.array(list(product(range(7), repeat=3)), float)),
     "several in each place": np.repeat(RNG.random((30, 3)), 20, axis=0)[RNG.permutation(600)],
     "all in one place": np.ones((300, 3)),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", POINTS)

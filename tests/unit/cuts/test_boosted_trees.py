@@ -66,7 +66,7 @@ def test_reading_gives_back_what_was_written(tmp_path):
 
 @pytest.mark.parametrize(("names", "first"), [
     (("x", "y", "z"), "z"), (("z", "x", "y"), "z"), (("x",), "y"), (("y",), "x"), (("x", "z"), "y"),
-])  # fmt: skip
+])
 def test_a_model_of_other_features_is_refused(tmp_path, names, first):
     """What is missing or unknown is named, not what merely stands in another place for that."""
     two_trees().write(tmp_path / "trees.npz")

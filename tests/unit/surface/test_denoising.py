@@ -24,7 +24,7 @@ CLEAN = {
     "ball": shapes.icosphere(4), "torus": shapes.torus(96, 32), "dumbbell": shapes.dumbbell(), "horse": shapes.horse(),
     "box of twelve triangles": shapes.box(), "flat grid": shapes.flat_grid(30, 30), "flat grid, turned": SLANTED,
     "cylinder": shapes.cylinder(40, 32), "table of blocks": TABLE, "tetrahedron": shapes.tetrahedron(),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", CLEAN)

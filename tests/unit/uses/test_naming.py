@@ -218,7 +218,7 @@ def test_a_muzzle_is_no_head():
 
 @pytest.mark.parametrize(("inner", "outer", "found"), [
     (2.3, 2.2, {"horn": 2, "ear": 2}), (2.2, 2.3, {"ear": 4}),  # as eyes are, lower
-])  # fmt: skip
+])
 def test_what_is_lower_between_ears_are_no_horns(inner, outer, found):
     pairs = [((side * x, -1.0, z), (0.08, 0.08, 0.16)) for x, z in ((0.08, inner), (0.2, outer)) for side in (1, -1)]
     names = of_boxes([*BULL, *pairs])

@@ -179,7 +179,7 @@ def test_a_name_that_leaves_no_room_for_a_number_and_a_side_is_given_all_the_sam
     (lambda first, second: None, "No part of First has a name of its own"),
     (lambda first, second: (setattr(first.data.reeb_parts.parts[0], "name", "Body"), second.select_set(False)),
      "Select other decomposed objects"),
-], ids=["no names", "no others"])  # fmt: skip
+], ids=["no names", "no others"])
 def test_what_is_missing_is_said(figures, prepare, words):
     prepare(*figures)
     with pytest.raises(RuntimeError, match=words):

@@ -105,7 +105,7 @@ def test_a_model_of_millimeters_has_the_map_of_one_of_meters(make, tree):
 @pytest.mark.parametrize("name", ["tree", "torus", "genus two", "sphere"])
 def test_every_face_lies_flat_and_no_face_is_turned_over(make, name):
     shape = {"tree": shapes.tube_tree, "torus": shapes.torus, "genus two": lambda: shapes.genus_two(0.09),
-             "sphere": lambda: shapes.icosphere(3)}[name]()  # fmt: skip
+             "sphere": lambda: shapes.icosphere(3)}[name]()
     obj = make(shape)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.unwrap()

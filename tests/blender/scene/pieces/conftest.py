@@ -35,7 +35,7 @@ def rich(obj):
         ("Paint", "BYTE_COLOR", "CORNER"), ("Dust", "FLOAT_COLOR", "POINT"), ("wear", "FLOAT", "POINT"),
         ("flow", "FLOAT_VECTOR", "FACE"), ("layer", "INT", "FACE"), ("crease_edge", "FLOAT", "EDGE"),
         ("bevel_weight_edge", "FLOAT", "EDGE"),
-    ):  # fmt: skip
+    ):
         key, width = WIDTH.get(kind, ("value", 1))
         fill(mesh.attributes.new(name, kind, domain), key, width, np.int32 if kind == "INT" else np.float32)
     for key in ("use_seam", "use_edge_sharp"):

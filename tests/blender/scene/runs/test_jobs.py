@@ -341,7 +341,7 @@ def test_it_is_ended_when_the_extension_is_switched_off(jobs, read, parameters, 
     (signal.SIGSEGV, "The process that decomposed Object 0 ended unexpectedly (signal 11); nothing was changed."),
     (signal.SIGTERM, "The process that decomposed Object 0 ended unexpectedly (signal 15); nothing was changed."),
     (signal.SIGKILL, "There is not enough memory to decompose Object 0 (5812 vertices); nothing was changed."),
-])  # fmt: skip
+])
 def test_a_crash_costs_one_sentence(jobs, read, parameters, number, words):
     tree = shapes.subdivide(shapes.tube_tree())
     words = words.replace("5812", str(len(tree.vertices)))
@@ -408,7 +408,7 @@ def other_python(monkeypatch, tmp_path):
     ("host", "#!/bin/sh\ntouch $(dirname $0)/started"),  # which must not be started again
     ("python3", None),
     ("python3", "#!/bin/sh\nexit 3"),
-))  # fmt: skip
+))
 def test_where_no_python_can_be_started_blender_computes(
         jobs, compute, read, parameters, other_python, name, text, tmp_path):
     given = read(shapes.tube_tree(), shapes.two_spheres())
@@ -430,7 +430,7 @@ def test_where_no_python_can_be_started_blender_computes(
 @pytest.mark.parametrize(("name", "known"), [
     ("python3.11", True), ("python3.13", True), ("python.exe", True), ("python", True), ("Python", True),
     ("blender", False), ("blender.exe", False), ("Blender", False), ("maya.bin", False),
-])  # fmt: skip
+])
 def test_what_counts_as_an_interpreter(package, other_python, name, known):
     """By the names that it has in builds of Blender, and those of programs around it."""
     processes = importlib.import_module(f"{package}.scene.runs.processes")

@@ -19,7 +19,7 @@ def spreading(package):
     ([8, 8, 300_000], 8, [[0, 1, 2]]),  # as two of the last would take too much memory
     ([8, 8, 250_000], 8, [[0, 1], [2]]),
     ([2_000_000, 8], 8, [[0, 1]]),
-])  # fmt: skip
+])
 def test_known_answers(spreading, sizes, processors, groups):
     assert spreading.spread(sizes, processors) == groups
 

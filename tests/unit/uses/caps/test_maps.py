@@ -17,7 +17,7 @@ def flat_areas(flat, face):
 def caps():
     """A rectangle of 4 by 2, one of 1 by 3 that stands on it, and a square of two triangles elsewhere."""
     points = np.array([[0, 0, 0], [4, 0, 0], [4, 2, 0], [0, 2, 0], [0, 0, 3], [0, 2, 3],
-                       [9, 0, 0], [10, 0, 0], [10, 1, 0], [9, 1, 0.0]])  # fmt: skip
+                       [9, 0, 0], [10, 0, 0], [10, 1, 0], [9, 1, 0.0]])
     faces = [[0, 1, 2, 3], [0, 3, 5, 4], [6, 7, 8], [6, 8, 9]]
     vertex = np.concatenate(faces)
     face = np.repeat([3, 5, 8, 9], [len(f) for f in faces])

@@ -74,7 +74,7 @@ def test_edges_between_points_of_the_rim_are_halved():
     found = sleeve(5, faces, labels, np.arange(4), 0, 1)
     assert found.split.tolist() == [[0, 2]]
     assert sorted(sorted(triangle) for triangle in found.triangles.tolist()) == [
-        [0, 1, 5], [0, 3, 5], [1, 2, 5], [2, 3, 5]]  # fmt: skip
+        [0, 1, 5], [0, 3, 5], [1, 2, 5], [2, 3, 5]]
     assert not len(found.end)
 
 

@@ -14,7 +14,7 @@ from core.uses.maps.unfold import opening_seams, seam_cost, unfolding_seams
 SHAPES = {
     "sphere": lambda: shapes.icosphere(3), "torus": shapes.torus, "genus two": lambda: shapes.genus_two(0.09),
     "tree": shapes.tube_tree, "grid": lambda: shapes.flat_grid(8, 6), "two spheres": shapes.two_spheres,
-}  # fmt: skip
+}
 
 
 def table_of(shape):
