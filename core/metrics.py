@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from .arrays.indexing import largest_of_each
 from .errors import ParameterError
 from .mesh.arguments import numbers, whole_numbers
 from .mesh.polygons import normalized
@@ -110,15 +111,8 @@ class Overlap:
         values : (k,) float64, 0 or more, per pair of regions. Returns the largest values for the regions of the first
         labeling, (r,), and for those of the second, (s,).
         """
-        first, second = self.pair.T
-        return _largest(first, values), _largest(second, values)
-
-
-def _largest(region: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """The largest of values, (k,), 0 or more, in each region, (r,)."""
-    best = np.zeros(region.max() + 1)
-    np.maximum.at(best, region, values)
-    return best
+        first, second = (largest_of_each(region, values, int(region.max()) + 1) for region in self.pair.T)
+        return first, second
 
 
 def rand_index_error(first: ArrayLike, second: ArrayLike) -> float:

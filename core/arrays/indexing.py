@@ -186,6 +186,17 @@ def bounds_of_each(index: np.ndarray, values: np.ndarray, count: int) -> tuple[n
     return low, high
 
 
+def largest_of_each(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """Find the largest value of each group, where none is negative.
+
+    index : (n,) int64, group of each value, 0..count-1. values : (n,) float64, 0 or more. Returns (count,) float64; 0
+    for a group without values.
+    """
+    largest = np.zeros(count)
+    np.maximum.at(largest, index, values)
+    return largest
+
+
 def taken(values: np.ndarray, index: np.ndarray) -> np.ndarray:
     """Rows of an array, (n, k), as ``values[index]`` would copy them, three to five times as fast.
 

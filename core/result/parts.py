@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays.indexing import sums_by
+from ..arrays.indexing import largest_of_each, sums_by
 from ..arrays.pairs import distinct_pairs
 from ..mesh.labels import majority
 from ..mesh.triangles import vote_weights
@@ -102,8 +102,7 @@ class Parts:
         low, high = np.sort(self.candidate_part[d.candidate_pairs], axis=1).reshape(-1, 2).T
         apart = low != high
         cuts, cut = distinct_pairs(low[apart], high[apart])
-        salience = np.zeros(len(cuts))
-        np.maximum.at(salience, cut, d.pair_salience[apart])
+        salience = largest_of_each(cut, d.pair_salience[apart], len(cuts))
         length = sums_by(cut, d.candidate_pair_length[apart], len(cuts))
         if len(d.junctions):
             pairs, more = counted_again(d.junctions, d.junction_length, self.candidate_part)

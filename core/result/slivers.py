@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import renumbered
+from ..arrays.indexing import largest_of_each, renumbered
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE
 from ..cuts.face_candidates import FaceCandidates
@@ -54,9 +54,8 @@ def _are_slivers(area: np.ndarray, part: np.ndarray, region: np.ndarray, piece: 
     """Whether the region of each candidate is a sliver, (c,) bool; area, part, region, piece : (c,), of candidates."""
     of_region = np.bincount(region, area)[region]
     pairs, on_piece = distinct_pairs(part, piece)
-    largest = np.zeros(len(pairs))
-    np.maximum.at(largest, on_piece, of_region)
-    return (of_region < TINY * np.bincount(piece, area)[piece]) | (of_region < SHARD * largest[on_piece])
+    largest = largest_of_each(on_piece, of_region, len(pairs))[on_piece]
+    return (of_region < TINY * np.bincount(piece, area)[piece]) | (of_region < SHARD * largest)
 
 
 def _goals(touching: np.ndarray, length: np.ndarray, n_candidates: int, n_regions: int) -> np.ndarray:
@@ -67,9 +66,7 @@ def _goals(touching: np.ndarray, length: np.ndarray, n_candidates: int, n_region
     first, second = both_ways(touching).T
     beside = (first >= n_candidates) & (second < n_candidates)
     sliver, other, length = first[beside] - n_candidates, second[beside], np.tile(length, 2)[beside]
-    longest = np.zeros(n_regions)
-    np.maximum.at(longest, sliver, length)
-    best = length >= (1 - TIE) * longest[sliver]
+    best = length >= (1 - TIE) * largest_of_each(sliver, length, n_regions)[sliver]
     goal = np.full(n_regions, -1)
     goal[sliver[best]] = other[best]
     return np.where(np.bincount(sliver[best], minlength=n_regions) == 1, goal, -1)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ...arrays.components import components, roots
-from ...arrays.indexing import renumbered
+from ...arrays.indexing import largest_of_each, renumbered
 from ...arrays.pairs import edge_keys
 from ...arrays.ties import rounded
 from ...mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
@@ -203,12 +203,11 @@ def _leading_cells(
     follows = leads[leader]
     share = graph.area[follows] / max(whole, 1e-300)
     share = rounded(np.bincount(cell[leader][follows], share, count))
-    largest = np.zeros(int(candidate.max()) + 1)
-    np.maximum.at(largest, candidate, share)
+    largest = largest_of_each(candidate, share, int(candidate.max()) + 1)[candidate]
     overhangs = (np.bincount(in_cell, graph.area[leads], count)
                  < OVERHANG * 2 / len(group.elements) * np.bincount(label, graph.area)[candidate])
     across = stabilizer[:, 1:].any(axis=1)
-    small = (((share < LEAST_LEADING) & (share < largest[candidate])) | overhangs
+    small = (((share < LEAST_LEADING) & (share < largest)) | overhangs
              | (across & (share < LEAST_ACROSS)))
     gone = np.bincount(in_cell, weight * dissolved[leads], count) > 0.5 * np.bincount(in_cell, weight, count)
     goal = _joined(leaders, cell, share, small, gone)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.indexing import largest_of_each
 from ...arrays.pairs import both_ways
 from ...arrays.ties import TIE
 from ...mesh.labels import FaceGraph, majority
@@ -45,9 +46,7 @@ def with_small_pieces(
     area = np.bincount(piece, graph.area, count)
     left = np.bincount(piece, ~moved, count) > 0
     taken = np.bincount(whole, np.where(moved, graph.area, 0.0), n_wholes)[of]
-    largest = np.zeros(n_wholes)
-    np.maximum.at(largest, of[left], area[left])
-    largest = largest[of]
+    largest = largest_of_each(of[left], area[left], n_wholes)[of]
     limit = np.maximum(BESIDE_LARGEST * largest, BESIDE_WHOLE * np.bincount(whole, graph.area, n_wholes)[of])
     # Areas of images differ by rounding, and so may sizes that are as large as each other.
     small = left & (area < (1 - TIE) * np.minimum(np.minimum(limit, largest), beside_taken * taken))

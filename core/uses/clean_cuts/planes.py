@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays.components import components
-from ...arrays.indexing import place_among, sums_by
+from ...arrays.indexing import largest_of_each, place_among, sums_by
 from ...arrays.pairs import both_ways
 from ...arrays.vectors import middles_of_each, second_moments_of_each
 from .band import Band
@@ -68,8 +68,7 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
     size, axes = np.linalg.eigh(moments / n_points[:, None, None])
     normal = axes[:, :, 0]
     length = sums_by(curve, band.table.edge_length(crossed), count) / n_points
-    away = np.zeros(count)
-    np.maximum.at(away, curve, np.abs((offset * normal[curve]).sum(axis=1)))
+    away = largest_of_each(curve, np.abs((offset * normal[curve]).sum(axis=1)), count)
     pair = np.sort(np.stack([top[a], top[b]], axis=1), axis=1)
     low, high = np.full((count, 2), len(band.names)), np.full((count, 2), -1)
     np.minimum.at(low, curve, pair)

@@ -10,7 +10,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...arrays.components import components
-from ...arrays.indexing import last_of_each
+from ...arrays.indexing import largest_of_each, last_of_each
 from ...arrays.pairs import edge_keys
 from ...mesh.corners import CornerTable
 from .conformal import ConformalFactor
@@ -78,9 +78,8 @@ def _most_uneven(charts: _Charts, scale: np.ndarray, edges: np.ndarray) -> np.nd
     count, place = components(len(scale), *edges[high[edges].all(axis=1)].T)
     worst = last_of_each(place, np.where(high, scale, 0.0), charts.from_middle, count=count)
     worst = worst[high[worst]]
-    most = np.zeros(charts.count)
-    np.maximum.at(most, charts.of_vertex[worst], scale[worst])
-    return worst[scale[worst] >= _AS_UNEVEN * most[charts.of_vertex[worst]]]
+    chart = charts.of_vertex[worst]
+    return worst[scale[worst] >= _AS_UNEVEN * largest_of_each(chart, scale[worst], charts.count)[chart]]
 
 
 def opening_seams(table: CornerTable, cut: np.ndarray, cost: np.ndarray | None = None) -> np.ndarray:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.components import components
-from ...arrays.indexing import sums_by
+from ...arrays.indexing import largest_of_each, sums_by
 from ...arrays.pairs import distinct_pairs
 from ...arrays.vectors import cross, middles_of_each, row_products, second_moments_of_each
 from ...mesh.corners import CornerTable
@@ -83,11 +83,10 @@ def _cuts(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarra
     count, of_end = components(int(end.max(initial=-1)) + 1, first, second)
     joint = of_end[first]
     weight = np.maximum(table.edge_length(cut), np.finfo(float).tiny)
-    pair, longest = np.zeros(count, np.int64), np.zeros(len(pairs))
+    pair = np.zeros(count, np.int64)
     pair[joint] = which
     length = np.bincount(joint, weight, count)
-    np.maximum.at(longest, pair, length)
-    kept = length >= _CRUMB * longest[pair]
+    kept = length >= _CRUMB * largest_of_each(pair, length, len(pairs))[pair]
     some = kept[joint]
     return (pairs[pair[kept]], (np.cumsum(kept) - 1)[joint[some]], table.vertices[table.edges[cut[some]]].mean(axis=1),
             weight[some])

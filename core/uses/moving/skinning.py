@@ -12,7 +12,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
-from ...arrays.indexing import bounds_of_each
+from ...arrays.indexing import bounds_of_each, largest_of_each
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
 from ...arrays.vectors import across, lengths
 from ...mesh.corners import CornerTable
@@ -206,8 +206,7 @@ def _tries(
 
 def _stiffened(laplacian: csr_array, table: CornerTable, stiffness: np.ndarray) -> csr_array:
     """The matrix with a spring at each edge, as stiff as the stiffer of its faces, (p,) float64."""
-    spring = np.zeros(len(table.edges))
-    np.maximum.at(spring, table.corner_edge, stiffness[table.corner_face])
+    spring = largest_of_each(table.corner_edge, stiffness[table.corner_face], len(table.edges))
     some = np.flatnonzero(spring)
     springs = symmetric_matrix(table.edges[some], spring[some], len(table.vertices))
     return laplacian + diags_array(springs.sum(axis=1)).tocsr() - springs
@@ -369,8 +368,8 @@ def turned_over(
 
 def _of_area(table: CornerTable) -> CornerTable:
     """The table without needles."""
-    longest = np.zeros(table.n_faces)
-    np.maximum.at(longest, table.corner_face, table.edge_length(np.arange(len(table.edges)))[table.corner_edge])
+    length = table.edge_length(np.arange(len(table.edges)))
+    longest = largest_of_each(table.corner_face, length[table.corner_edge], table.n_faces)
     return table.within(lengths(table.face_vectors()) > _NEEDLE * longest**2)
 
 

@@ -12,6 +12,7 @@ from core.arrays.indexing import (
     first_of_rows,
     hashed_sets,
     is_last_of_each,
+    largest_of_each,
     last_of_each,
     place_among,
     ranges,
@@ -119,6 +120,10 @@ def test_the_bounds_of_a_group_without_values_are_infinite():
     low, high = bounds_of_each(np.array([2, 0, 2]), np.array([[1, 5], [2, 2], [3, -4]]), 3)
     assert np.array_equal(low, [[2, 2], [np.inf, np.inf], [1, -4]])
     assert np.array_equal(high, [[2, 2], [-np.inf, -np.inf], [3, 5]])
+
+
+def test_the_largest_of_a_group_without_values_is_0():
+    assert np.array_equal(largest_of_each(np.array([2, 0, 2]), np.array([1.0, 4.0, 3.0]), 3), [4.0, 0.0, 3.0])
 
 
 def test_owners_of_the_same_members_have_one_number_in_any_order():
