@@ -49,7 +49,7 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
     sign = np.where(flip, -1.0, 1.0)
     as_given = _sums(piece, sign * mesh.face_area, count)
     center = mesh.vertices.mean(axis=0)  # volumes are measured from here: far from the origin they would cancel
-    volume = _sums(piece, sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center), count)
+    volume = _sums(piece, sign * row_products(mesh.area_normals, mesh.face_centroids - center), count)
     borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
     closed = np.bincount(piece, borders.any(axis=1), count) == 0
     # What is folded flat encloses nothing.
@@ -216,7 +216,7 @@ def _to_other_side(table: CornerTable, flip: np.ndarray, piece: np.ndarray, clos
     """
     vector, sign = table.face_vectors(), np.where(flip, -1.0, 1.0)
     volume = _volumes(table, sign[:, None] * vector, piece, len(closed))
-    as_given = _sums(piece, sign * np.sqrt(row_products(vector, vector)), len(closed))
+    as_given = _sums(piece, sign * lengths(vector), len(closed))
     return np.where(closed & (volume != 0), volume < 0, as_given < 0)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ...core.arrays.indexing import renumbered, stable_order
-from ...core.arrays.vectors import cross
+from ...core.arrays.vectors import cross, lengths
 from ...core.mesh.corners import CornerTable
 from ...core.surface.reach import within_reach
 from .. import transaction
@@ -229,7 +229,7 @@ class _Places:
     @classmethod
     def of(cls, points: np.ndarray, triangles: np.ndarray, vector: np.ndarray) -> _Places:
         """Triangles of all sizes; vector : (t, 3), as long as twice the area."""
-        area = np.sqrt(np.einsum("ij,ij->i", vector, vector))
+        area = lengths(vector)
         # Large triangles first: what is thin is thin over some area. Their bits are in the order of the areas.
         some = np.sort(stable_order(-area.view(np.int64))[:: max(len(area) // _PLACES, 1)][:_PLACES])
         some = some[area[some] > 0]

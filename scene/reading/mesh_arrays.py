@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from ...core.arrays.indexing import renumbered, run_starts
-from ...core.arrays.vectors import cross, lengths
+from ...core.arrays.vectors import cross, lengths, row_products
 from ...core.mesh.corners import CornerTable
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
@@ -298,7 +298,7 @@ def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     a, b, c, d = (np.take(points, quads[:, i], axis=0) for i in range(4))  # faster than points[...]
     with np.errstate(over="ignore", invalid="ignore"):  # infinite ones are refused later, with large ones all is well
         diagonal = c - a
-        flip = np.einsum("ij,ij->i", cross(b - a, diagonal), cross(d - a, diagonal)) > 0
+        flip = row_products(cross(b - a, diagonal), cross(d - a, diagonal)) > 0
     i, j, k, m = quads.T
     return np.stack([i, j, np.where(flip, m, k), np.where(flip, j, i), k, m], axis=1).reshape(-1, 3)
 

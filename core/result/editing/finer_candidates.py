@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays.vectors import row_products
 from ...cuts.hierarchy import Hierarchy
 from ...graph.critical import SADDLE
 from ...mesh.corners import CornerTable
@@ -181,6 +182,6 @@ def _contour_is_on(
 def _nearest_is_on(table: CornerTable, position: np.ndarray, faces: np.ndarray) -> bool:
     """Whether most faces of a table that meet at the vertex nearest to a position are faces of a mask, (p,) bool."""
     offset = table.vertices[table.corner_vertex] - position
-    nearest = table.corner_vertex[np.einsum("ij,ij->i", offset, offset).argmin()]
+    nearest = table.corner_vertex[row_products(offset, offset).argmin()]
     around = faces[table.corner_face[table.corner_vertex == nearest]]
     return bool(around.sum() > len(around) / 2)
