@@ -47,31 +47,43 @@ def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
     if not faces.mesh.area > 0:
         return None
     elements = faces.elements
-    few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
-    start = [oriented(normal, 0.0) for normal in _directions(elements)]
-    tried = _improved(start, few, probes, ROUGH)
-    share = max(plane.share for plane in tried)
-    if share < LIKELY:
+    tried = [oriented(normal, 0.0) for normal in _directions(elements)]
+    improved = _improved(tried, elements.some(COARSE[0]), elements.some(COARSE[1]), ROUGH)
+    likely = [pair for pair in zip(tried, improved, strict=True) if pair[1].share >= LIKELY]
+    if not likely:
         return None
     many, probes = elements.some(FINE[0]), elements.some(FINE[1])
-    likely = [k for k, plane in enumerate(tried) if plane.share >= LIKELY]
-    chosen = next(k for k in likely if tried[k].share >= share - EQUAL)
-    close = [k for k in likely if tried[k].share >= share - CLOSE]
-    if len(close) > 1:
-        finer = {k: judged(tried[k], many, probes).share for k in close}
-        chosen = next(k for k in (chosen, *close) if finer[k] >= max(finer.values()) - CLEAR)
-    if len(likely) > 1:
-        chosen = next((k for k in likely if is_exact(faces.polygons, start[k])), chosen)
+    central, moved = _chosen(likely, faces.polygons, many, probes)
     # A plane through the middle, across a principal axis, is exact where the shape is, and the same in all poses.
-    exact = judged(start[chosen], many, probes)
+    exact = judged(central, many, probes)
     if exact.share >= 1 - EXACT:  # none is better
         return faces.outwards(exact)
-    best, = _improved([tried[chosen]], many, probes)
+    best, = _improved([moved], many, probes)
     if best.share < LEAST:
         return None
     if len(many.area) < len(elements.area):
         best, = _improved([best], elements, probes)
     return faces.outwards(exact if exact.share >= best.share - EXACT else best)
+
+
+def _chosen(
+    likely: list[tuple[MirrorPlane, MirrorPlane]], polygons: Elements, surface: Elements, probes: Elements
+) -> tuple[MirrorPlane, MirrorPlane]:
+    """Which of some planes through the middle to take, each of which comes with what it was improved to.
+
+    The first that is exact; without one the first of the nearly best, unless many probes say that another is better.
+    """
+    if len(likely) == 1:
+        return likely[0]
+    for pair in likely:
+        if is_exact(polygons, pair[0]):
+            return pair
+    most = max(plane.share for _, plane in likely)
+    first = next(pair for pair in likely if pair[1].share >= most - EQUAL)
+    close = [pair for pair in likely if pair[1].share >= most - CLOSE]
+    finer = [judged(plane, surface, probes).share for _, plane in close]
+    good = [pair for pair, share in zip(close, finer, strict=True) if share >= max(finer) - CLEAR]
+    return first if first in good else good[0]
 
 
 def is_exact(polygons: Elements, plane: MirrorPlane) -> bool:
