@@ -140,14 +140,9 @@ def search_boundaries(
     cuts = np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
     link = _links(sets, topology)
     moved = piece_region.copy()
-    energies: dict[int, float] = {}
     for cut, run in _search_runs(sets, topology, cuts):
-        value = sets.levels[sets.contour_level[run]]
-        for contour in run.tolist():
-            if contour not in energies:
-                energies[contour] = concavity(sets, k_min, contour, sigma)
-        concave = np.array([energies[c] for c in run.tolist()])
-        stay = np.abs(value - sets.levels[sets.contour_level[cut]])
+        stay = np.abs(sets.levels[sets.contour_level[run]] - sets.levels[sets.contour_level[cut]])
+        concave = np.array([concavity(sets, k_min, contour, sigma) for contour in run.tolist()])
         best = int(((1 - concavity_weight) * stay + concavity_weight * concave).argmin())
         here = int(np.flatnonzero(run == cut)[0])
         passed = sets.contour_pieces[run[min(here, best): max(here, best) + 1]]
