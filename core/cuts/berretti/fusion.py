@@ -187,11 +187,10 @@ def fuse_weakest(
         Of each merge, 0..1; need not rise. With x the area ratio over ``small_region``, or that area over the disc's,
         x / (x + 1).
     """
-    graph, nothing = FusionGraph(sets, count, region), 1e-12 * sets.mesh.area
-    # A contour that parts the surface does so whatever is fused elsewhere, and its sides stay the same.
-    sides = graph.bridges()
+    graph = FusionGraph(sets, count, region)
+    protrusions = _Protrusions(graph, 1e-12 * sets.mesh.area)
     queue = [(area, r) for r, area in enumerate(graph.area)]
-    weak = [_weakness(graph, sides, nothing, a, b) for a in range(count) for b in graph.neighbors[a] if a < b]
+    weak = [protrusions.weakness(a, b) for a in range(count) for b in graph.neighbors[a] if a < b]
     heapq.heapify(queue)
     heapq.heapify(weak)
     merges, salience, largest = [], [], max(graph.area, default=0.0)
@@ -201,36 +200,44 @@ def fuse_weakest(
             heapq.heappop(queue)
         if not queue:
             return np.array(merges, np.int64).reshape(-1, 2), np.array(salience)
-        while weak[0][2] not in graph.neighbors[weak[0][1]] or _weakness(
-                graph, sides, nothing, *weak[0][1:]) != weak[0]:
+        while weak[0][2] not in graph.neighbors[weak[0][1]] or protrusions.weakness(*weak[0][1:]) != weak[0]:
             heapq.heappop(weak)
         area, small = queue[0]
         worth, gone, keep = min((area / (area + small_region * largest), small, graph.longest_boundary(small)), weak[0])
         merges.append((keep, gone))
         salience.append(worth)
-        for other in graph.neighbors[gone]:
-            side = sides.pop((min(gone, other), max(gone, other)), None)
-            if side is not None and other != keep:
-                sides[min(keep, other), max(keep, other)] = side
-        graph.merge_(keep, gone)
+        protrusions.merge_(keep, gone)
         largest = max(largest, graph.area[keep])
         heapq.heappush(queue, (graph.area[keep], keep))
         for other in graph.neighbors[keep]:
-            heapq.heappush(weak, _weakness(graph, sides, nothing, keep, other))
+            heapq.heappush(weak, protrusions.weakness(keep, other))
 
 
-def _weakness(
-    graph: FusionGraph, sides: dict[tuple[int, int], float], nothing: float, a: int, b: int
-) -> tuple[float, int, int]:
-    """How much the boundary of two regions cuts off, 0..1, the smaller region and the larger one.
+class _Protrusions:
+    """What the boundaries in a graph of regions cut off, while the regions are fused.
 
-    sides : of the boundaries that part the surface, the area of the smaller side. nothing : an area beside which all
-    others are large.
+    nothing : an area beside which all others are large.
     """
-    area = graph.area
-    small, large = (a, b) if (area[a], a) < (area[b], b) else (b, a)
-    beyond = sides.get((min(a, b), max(a, b)), area[small])
-    return beyond / (beyond + disc(graph.contours[a][b][1]) + nothing), small, large
+
+    def __init__(self, graph: FusionGraph, nothing: float) -> None:
+        self._graph, self._nothing = graph, nothing
+        # A contour that parts the surface does so whatever is fused elsewhere, and its sides stay the same.
+        self._sides = graph.bridges()
+
+    def weakness(self, a: int, b: int) -> tuple[float, int, int]:
+        """How much the boundary of two regions cuts off, 0..1, the smaller region and the larger one."""
+        area = self._graph.area
+        small, large = (a, b) if (area[a], a) < (area[b], b) else (b, a)
+        beyond = self._sides.get((min(a, b), max(a, b)), area[small])
+        return beyond / (beyond + disc(self._graph.contours[a][b][1]) + self._nothing), small, large
+
+    def merge_(self, keep: int, gone: int) -> None:
+        """Fuse region ``gone`` into region ``keep``, whose the other boundaries of ``gone`` are then."""
+        for other in self._graph.neighbors[gone]:
+            side = self._sides.pop((min(gone, other), max(gone, other)), None)
+            if side is not None and other != keep:
+                self._sides[min(keep, other), max(keep, other)] = side
+        self._graph.merge_(keep, gone)
 
 
 def disc(length: float) -> float:
