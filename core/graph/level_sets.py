@@ -242,19 +242,20 @@ def cut_at_levels(
     n_levels = highest - lowest  # of each face, which has one element more
     element_face, element_slab = expanded(lowest, n_levels + 1)
     segment_face, segment_level = expanded(lowest, n_levels)
-    first_segment = np.cumsum(n_levels) - n_levels - lowest
-    first = first_segment + np.arange(mesh.n_faces)
+    # What to add to a slab to get the element of a face there, and to a level to get its segment.
+    segment_base = np.cumsum(n_levels) - n_levels - lowest
+    element_base = segment_base + np.arange(mesh.n_faces)
     ends = [slab.take(end.take(mesh.edges.pair_edge)) for end in mesh.edges.vertices.T]
     low, across = np.minimum(*ends), np.abs(ends[0] - ends[1])
-    n_pieces, element_piece = _joined(mesh.edges.pairs, low, across + 1, first, len(element_face))
-    n_contours, segment_contour = _joined(mesh.edges.pairs, low, across, first_segment, len(segment_face))
-    lower = first[segment_face] + segment_level
+    n_pieces, element_piece = _joined(mesh.edges.pairs, low, across + 1, element_base, len(element_face))
+    n_contours, segment_contour = _joined(mesh.edges.pairs, low, across, segment_base, len(segment_face))
+    lower = element_base[segment_face] + segment_level
     contour_pieces = np.empty((n_contours, 2), np.int64)
     contour_pieces[segment_contour, 0] = element_piece[lower]
     contour_pieces[segment_contour, 1] = element_piece[lower + 1]
     if bridges is not None and len(bridges):
         loose_part = mesh.face_components[1]
-        links = _links_of(bridges, loose_part, lowest, highest, first)
+        links = _links_of(bridges, loose_part, lowest, highest, element_base)
         of_piece = np.empty(n_pieces, np.int64)
         of_piece[element_piece] = loose_part[element_face]
         piece, contour, contour_pieces = _linked(links, element_piece, of_piece, contour_pieces)
@@ -269,30 +270,30 @@ def cut_at_levels(
 
 
 def _joined(
-    pairs: np.ndarray, low: np.ndarray, count: np.ndarray, first: np.ndarray, total: int
+    pairs: np.ndarray, low: np.ndarray, count: np.ndarray, base: np.ndarray, total: int
 ) -> tuple[int, np.ndarray]:
     """How many connected sets of elements, or of segments, there are, and that of each, (total,) int64.
 
     pairs : (p, 2), faces that share an edge. low, count : (p,), the lowest slab, or level, that meets this edge, and
-    how many do. first : (m,), the element, or segment, of each face in slab, or at level, 0, if it had one there.
+    how many do. base : (m,), of each face, what is to be added to a slab or level to get its element or segment there.
     """
     pair, at = expanded(low, count)
-    return components(total, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
+    return components(total, base[pairs[pair, 0]] + at, base[pairs[pair, 1]] + at)
 
 
 def _links_of(
-    bridges: np.ndarray, loose_part: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
+    bridges: np.ndarray, loose_part: np.ndarray, lowest: np.ndarray, highest: np.ndarray, element_base: np.ndarray
 ) -> FaceBridges:
     """The elements that bridges between faces, (l, 2), link.
 
-    loose_part, lowest, highest, first : (m,), of each face, its lowest and highest slab, and its element in slab 0, if
-    it had one there.
+    loose_part, lowest, highest, element_base : (m,), of each face, its lowest and highest slab, and what is to be added
+    to a slab to get its element there.
     """
     swap = loose_part[bridges[:, 0]] > loose_part[bridges[:, 1]]
     bridges = np.where(swap[:, None], bridges[:, ::-1], bridges)
     low, high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
     meet = low <= high
-    return FaceBridges(first[bridges[meet]] + low[meet, None], (high - low + 1)[meet])
+    return FaceBridges(element_base[bridges[meet]] + low[meet, None], (high - low + 1)[meet])
 
 
 def _linked(

@@ -135,13 +135,15 @@ def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_
     regions : Regions
         With the parts of ``regions`` at every level of detail at which no region is cut.
     """
-    level = np.zeros(len(sets.levels), bool)
-    at_node = (topology.piece_node[sets.contour_pieces] >= 0).any(axis=1) & (topology.contour_arc >= 0)
-    level[sets.contour_level[at_node]] = True
+    on_graph = topology.contour_arc >= 0
+    at_node = on_graph & (topology.piece_node[sets.contour_pieces] >= 0).any(axis=1)
+    has_event = np.zeros(len(sets.levels), bool)  # whether components begin, end, join or split beside each level
+    has_event[sets.contour_level[at_node]] = True
     lower, upper = regions.piece_region[sets.contour_pieces].T
     inside = lower == upper
-    joined = inside & ~(level[sets.contour_level] & (topology.contour_arc >= 0) & ~at_node)
-    count, fine = components(sets.n_pieces, *sets.contour_pieces[joined].T)
+    # Next to the node itself nothing is cut: ``regions_between_events`` has decided there.
+    cut = on_graph & has_event[sets.contour_level] & ~at_node
+    count, fine = components(sets.n_pieces, *sets.contour_pieces[inside & ~cut].T)
     merges, ratio = fuse_small(sets, count, fine, inside)
     least = regions.hierarchy.salience.min(initial=0.5)
     one_of = np.empty(regions.hierarchy.n_candidates, np.int64)  # a slab piece of each stands for it
