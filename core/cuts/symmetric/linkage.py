@@ -208,26 +208,32 @@ def _mean(values: list[float], chosen: tuple[int, ...]) -> float:
 
 def _merge_with_images_(clusters: _Clusters, a: int, b: int, strength: float) -> None:
     """Merge two clusters, and their images if these are others; the union's images are the unions of the images."""
-    image = clusters.image
-    images_a, images_b = image[a], image[b]
+    images_a, images_b = clusters.image[a], clusters.image[b]
     clusters.merge_(a, b, strength)
-    union = [a]
-    for of_a, of_b in zip(images_a[1:], images_b[1:], strict=True):
-        if of_a < 0 or of_b < 0:  # what has no image follows what has one
-            union.append(max(of_a, of_b))
-            continue
-        low, high = sorted((int(clusters.of[of_a]), int(clusters.of[of_b])))
-        if low != high and high in clusters.touching[low]:
-            clusters.merge_(low, high, strength)
-            high = low
-        if low != high:
-            for k in (low, high):
-                image[k] = [image[k][0]] + [-1] * (len(image[k]) - 1)
-        union.append(low if low == high else -1)
+    union = [a, *(_union_of_images_(clusters, *images, strength)
+                  for images in zip(images_a[1:], images_b[1:], strict=True))]
     union = [int(clusters.of[k]) if k >= 0 else -1 for k in union]
     for element, mirrored in enumerate(union):
         if mirrored >= 0:
-            image[mirrored] = [union[further[element]] for further in clusters.composition]
+            clusters.image[mirrored] = [union[further[element]] for further in clusters.composition]
     changed = {a, *(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0)}
     clusters.measure_(changed)
     clusters.find_nearest_(changed.union(*(clusters.touching[k] for k in changed)))
+
+
+def _union_of_images_(clusters: _Clusters, one: int, other: int, strength: float) -> int:
+    """The union of the images of two clusters under one element, merged if they touch; -1 if they cannot be.
+
+    Two that stay apart have no images any more. What has no image, -1, follows what has one.
+    """
+    if one < 0 or other < 0:
+        return max(one, other)
+    low, high = sorted((int(clusters.of[one]), int(clusters.of[other])))
+    if low == high:
+        return low
+    if high in clusters.touching[low]:
+        clusters.merge_(low, high, strength)
+        return low
+    for k in (low, high):
+        clusters.image[k] = [clusters.image[k][0]] + [-1] * (len(clusters.image[k]) - 1)
+    return -1
