@@ -84,16 +84,7 @@ def coarsen(
     a, b = _near(mesh.vertices, a[order], b[order])
     kept = np.zeros(mesh.n_vertices, bool) if kept is None else kept
     seed = _seeds(a, b, _priority(mesh.vertices, vertex_area), kept)
-    name = place_among(np.flatnonzero(seed), len(seed))
-    owner = name.copy()
-    near = np.flatnonzero(seed[b] & ~seed[a])
-    a, b = a[near], b[near]
-    length = lengths(taken(mesh.vertices, a) - taken(mesh.vertices, b))
-    start = run_starts(a)
-    least = np.minimum.reduceat(length, start) if len(start) else length
-    nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
-    owner[a[nearest]] = name[b[nearest]]  # NumPy keeps what is written last: the first of those equally near
-    count = int(seed.sum())
+    owner, count = _owners(mesh.vertices, a, b, seed), int(seed.sum())
     p, q, r = owner[mesh.faces.T]
     whole = np.flatnonzero((p != q) & (q != r) & (r != p))
     faces = taken(np.stack([p, q, r], axis=1), whole)
@@ -104,6 +95,23 @@ def coarsen(
     between = between[first_of_rows(between, count)]
     return Coarsening(TriMesh(taken(mesh.vertices, seed), taken(faces, once)), between, links, owner,
                       np.bincount(owner, vertex_area, count))
+
+
+def _owners(points: np.ndarray, a: np.ndarray, b: np.ndarray, seed: np.ndarray) -> np.ndarray:
+    """Coarse vertex in whose cell each vertex lies, (n,) int64: of several beside it the nearest.
+
+    seed : (n,) bool, the coarse vertices. a, b : links in both directions, sorted by ``a``.
+    """
+    name = place_among(np.flatnonzero(seed), len(seed))
+    owner = name.copy()
+    near = np.flatnonzero(seed[b] & ~seed[a])
+    a, b = a[near], b[near]
+    length = lengths(taken(points, a) - taken(points, b))
+    start = run_starts(a)
+    least = np.minimum.reduceat(length, start) if len(start) else length
+    nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
+    owner[a[nearest]] = name[b[nearest]]  # NumPy keeps what is written last: the first of those equally near
+    return owner
 
 
 class Pyramid:
