@@ -82,7 +82,7 @@ class CornerTable:
         return self.with_joined(first), first
 
     def with_joined(self, first: np.ndarray) -> CornerTable:
-        """The table with some vertices joined. first : (n,) int64, the one of each. Returns as ``joined``."""
+        """The table that ``joined`` returns. first : (n,) int64, the vertex that each is joined to."""
         moved = first != np.arange(len(first))
         if not moved.any():
             return self

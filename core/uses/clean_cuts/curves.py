@@ -120,7 +120,7 @@ def _sides(table: CornerTable, cuts: CleanCuts, after: np.ndarray, divided: np.n
 
 
 def _fragment_labels(cuts: CleanCuts, face: np.ndarray, point: np.ndarray, divided: np.ndarray,
-                  n_points: int) -> np.ndarray:
+                     n_points: int) -> np.ndarray:
     """The part of each stretch of the outlines of faces, (o,) int64; of faces that are not divided anything.
 
     face, point : (o,) int64, face of each stretch, rising, and where it begins.
