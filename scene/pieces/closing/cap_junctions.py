@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from operator import itemgetter
 from typing import TYPE_CHECKING
@@ -74,7 +75,7 @@ def ways_to_middles(points: np.ndarray, cuts: np.ndarray, meeting: np.ndarray, d
     for one in np.unique(own).tolist():
         starts = vertex[own == one]
         edges = cuts[network[place[:, 0]] == one]
-        found = _best(points, starts, _stretches(edges, starts), middles[one], float(step[one]), discs)
+        found = _best(_Network(points, starts, _stretches(edges, starts), discs), middles[one], float(step[one]))
         ways.update(zip(starts.tolist(), found, strict=True))
     return ways
 
@@ -97,55 +98,116 @@ def _stretches(edges: np.ndarray, ends: np.ndarray) -> list[list[int]]:
     return found
 
 
-def _best(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], mean: np.ndarray, step: float,
-          discs: Discs) -> list[np.ndarray]:
+@dataclass(frozen=True, eq=False)
+class _Network:
+    """Connected cuts, and what their caps need.
+
+    points : (n, 3) float64, of the model. starts : (k,) int64, vertices where more than two cuts meet. stretches : the
+    vertices along the cuts from one of these to another. discs : what makes the caps. Ways to a middle are a list of
+    (s, 3), one for each of the starts.
+    """
+
+    points: np.ndarray
+    starts: np.ndarray
+    stretches: list[list[int]]
+    discs: Discs
+
+    @property
+    def places(self) -> np.ndarray:
+        """(k, 3) float64, where the starts are."""
+        return self.points[self.starts]
+
+    def curves(self, ways: list[np.ndarray]) -> Iterator[np.ndarray]:
+        """Each stretch closed by the ways from its ends to the middle, as it will be seen from both sides."""
+        from_start = dict(zip(self.starts.tolist(), ways, strict=True))
+        for stretch in self.stretches:
+            onwards, back = apart(from_start[stretch[-1]], from_start[stretch[0]])
+            curve = np.concatenate([self.points[stretch], onwards, back[:-1][::-1]])
+            curve = curve.astype(np.float32).astype(np.float64)
+            yield curve[common_order(curve)]
+
+    def faults(self, ways: list[np.ndarray], effort: int, most: int) -> int:
+        """How often the caps to the middle cross something or each other; it is not asked beyond most.
+
+        effort : how far to go for caps that do not, see discs.PLAIN.
+        """
+        faults, sheets = 0, []
+        for curve in self.curves(ways):
+            found = self.discs.tried(curve, effort=effort)
+            faults += found.faults
+            if faults >= most:
+                return faults
+            if found.disc is not None:
+                sheets.append((np.concatenate([curve, found.disc.places]), found.disc.triangles))
+        return faults + len(_crossings(sheets))
+
+    def faults_if_closed(self, ways: list[np.ndarray], effort: int, most: int) -> int:
+        """What ``faults`` tells if all caps can be made; ``most`` if not."""
+        faults = self.faults(ways, effort, most)
+        if faults < most and all(self.discs.tried(curve).disc is not None for curve in self.curves(ways)):
+            return faults
+        return most
+
+    def note(self, ways: list[np.ndarray]) -> None:
+        """Note which caps to the middle cross each other; what else they cross ``discs`` notes itself."""
+        sheets, used = [], []
+        for stretch, curve in zip(self.stretches, self.curves(ways), strict=True):
+            disc = self.discs.tried(curve).disc
+            if disc is not None:
+                sheets.append((np.concatenate([curve, disc.places]), disc.triangles))
+                used.append(stretch)
+        pairs, count = np.unique(_crossings(sheets), axis=0, return_counts=True)
+        for (a, b), times in zip(pairs.tolist(), count.tolist(), strict=True):
+            self.discs.note(np.array(used[a] + used[b]), times)
+
+
+def _best(network: _Network, mean: np.ndarray, step: float) -> list[np.ndarray]:
     """Of several middles with ways to them the first whose caps cross nothing, else the one whose caps do so least."""
     tried, hopeless = [], 1 << 30
-    for ways in _choices(points, starts, stretches, mean, step, discs):
-        faults = _faults(points, dict(zip(starts.tolist(), ways, strict=True)), stretches, discs, PLAIN, hopeless)
+    for ways in _choices(network, mean, step):
+        faults = network.faults(ways, PLAIN, hopeless)
         if not faults:
             return ways
         hopeless = min(hopeless, _HOPELESS * faults)
         tried.append((faults, len(tried), ways))
-        if len(tried) >= _FIRST and len(tried) * len(stretches) >= _CAPS:
+        if len(tried) >= _FIRST and len(tried) * len(network.stretches) >= _CAPS:
             break
     # No plain caps will do: of the middles, those first whose caps cross least.
     best, least = tried[0][2], 1 << 30
     for known, _, ways in sorted(tried, key=itemgetter(0, 1)):
         if known >= hopeless:
             break
-        faults = _faults(points, dict(zip(starts.tolist(), ways, strict=True)), stretches, discs, LED_IN, least)
+        faults = network.faults(ways, LED_IN, least)
         if faults < least:
             best, least = ways, faults
         if not faults:
             return ways
-    several = _several_middles(points, starts, stretches, discs)
+    several = _several_middles(network)
     if several is not None:
-        faults = _faults(points, dict(zip(starts.tolist(), several, strict=True)), stretches, discs, LED_IN, least)
+        faults = network.faults(several, LED_IN, least)
         best = several if faults < least else best
-    _note(points, dict(zip(starts.tolist(), best, strict=True)), stretches, discs)
+    network.note(best)
     return best
 
 
-def _several_middles(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]],
-                     discs: Discs) -> list[np.ndarray] | None:
+def _several_middles(network: _Network) -> list[np.ndarray] | None:
     """Ways over several middles, from one to the next by lines that caps have in common; None if there are none.
 
     Around a handle, no place is seen from all others. The middles are those of groups of places between which few
     stretches go; each goes in turn where caps cross least, as long as that helps, twice at most.
     """
-    number = {vertex: index for index, vertex in enumerate(starts.tolist())}
-    pairs = np.array([(number[stretch[0]], number[stretch[-1]]) for stretch in stretches]).reshape(-1, 2)
-    sides = nested_sides(points[starts], pairs)
+    places = network.places
+    number = {vertex: index for index, vertex in enumerate(network.starts.tolist())}
+    pairs = np.array([(number[stretch[0]], number[stretch[-1]]) for stretch in network.stretches]).reshape(-1, 2)
+    sides = nested_sides(places, pairs)
     if not len(sides):
         return None
-    through = np.append(sides, np.ones((1, len(starts)), bool), axis=0).T  # middles on the way from each place
-    options = [_places(points[starts[own]], discs) for own in own_places(sides)]
+    through = np.append(sides, np.ones((1, len(places)), bool), axis=0).T  # middles on the way from each place
+    options = [_places(places[own], network.discs) for own in own_places(sides)]
     options = [[*own, *(other[0] for other in options if other is not own)] for own in options]
 
     def faults(effort: int, tried: np.ndarray, most: int) -> int:
-        ways = dict(zip(starts.tolist(), (tried[here] for here in through), strict=True))
-        return _faults_if_closed(points, ways, stretches, discs, effort, most)
+        return network.faults_if_closed([tried[here] for here in through], effort, most)
 
     middles, least = np.array([own[0] for own in options]), 1 << 30
     for effort in (PLAIN, PLAIN, LED_IN):
@@ -161,7 +223,7 @@ def _with_best(middles: np.ndarray, index: int, options: list[np.ndarray], fault
                least: int) -> tuple[np.ndarray, int]:
     """Middles, (m, 3), with one of them where the caps have fewest faults, and how many these are.
 
-    options : places for the one at ``index``. faults : of middles, not asked beyond a number, see ``_faults``.
+    options : places for the one at ``index``. faults : of middles, not asked beyond a number, see ``_Network.faults``.
     """
     for place in (middles[index], *options):
         tried = middles.copy()
@@ -173,15 +235,6 @@ def _with_best(middles: np.ndarray, index: int, options: list[np.ndarray], fault
     return middles, least
 
 
-def _faults_if_closed(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs,
-                      effort: int, most: int) -> int:
-    """What ``_faults`` tells if all caps can be made; ``most`` if not."""
-    faults = _faults(points, ways, stretches, discs, effort, most)
-    if faults < most and all(discs.tried(_curve(points, ways, one)).disc is not None for one in stretches):
-        return faults
-    return most
-
-
 def _places(starts: np.ndarray, discs: Discs) -> list[np.ndarray]:
     """Places for the middle of some places on the surface, (k, 3), the mean of which is the first."""
     mean = starts.mean(axis=0)
@@ -189,20 +242,6 @@ def _places(starts: np.ndarray, discs: Discs) -> list[np.ndarray]:
     if body is None or (body.own < 0).any():
         return [mean]
     return _middles(starts, mean, body, discs.side(mean[None], body))[:_OPTIONS]
-
-
-def _note(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs) -> None:
-    """Note which caps of some stretches to the middle cross each other; what else they cross ``discs`` notes itself."""
-    sheets, used = [], []
-    for stretch in stretches:
-        curve = _curve(points, ways, stretch)
-        disc = discs.tried(curve).disc
-        if disc is not None:
-            sheets.append((np.concatenate([curve, disc.places]), disc.triangles))
-            used.append(stretch)
-    pairs, count = np.unique(_crossings(sheets), axis=0, return_counts=True)
-    for (a, b), times in zip(pairs.tolist(), count.tolist(), strict=True):
-        discs.note(np.array(used[a] + used[b]), times)
 
 
 def apart(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -213,19 +252,12 @@ def apart(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return one[: len(one) - n + 1], other[: len(other) - n + 1]
 
 
-def _curve(points: np.ndarray, ways: dict[int, np.ndarray], stretch: list[int]) -> np.ndarray:
-    """A stretch closed by the ways from its ends to the middle, as it will be seen from both sides."""
-    onwards, back = apart(ways[stretch[-1]], ways[stretch[0]])
-    curve = np.concatenate([points[stretch], onwards, back[:-1][::-1]]).astype(np.float32).astype(np.float64)
-    return curve[common_order(curve)]
-
-
-def _choices(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], mean: np.ndarray, step: float,
-             discs: Discs) -> Iterator[list[np.ndarray]]:
-    """Ways from some vertices, (k,) int64, to one place each time."""
-    yield [mean[None]] * len(starts)
-    places = points[starts]
-    curve = np.concatenate([points[stretch] for stretch in stretches]) if stretches else places
+def _choices(network: _Network, mean: np.ndarray, step: float) -> Iterator[list[np.ndarray]]:
+    """Ways from the starts to one place each time."""
+    places, discs = network.places, network.discs
+    yield [mean[None]] * len(places)
+    stretches = network.stretches
+    curve = np.concatenate([network.points[stretch] for stretch in stretches]) if stretches else places
     body = discs.around(places, np.append(curve, mean[None], axis=0), 0.1)
     if body is None or not step > 0 or (body.own < 0).any():
         return
@@ -237,24 +269,6 @@ def _choices(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]],
         near = (side * body.heights(tried.reshape(-1, 3)) > -_NEAR * away).reshape(_TRIED - 1, -1).any(axis=0)
         yield [_bent(place, middle, step, body, side) if bent else middle[None]
                for place, bent in zip(places, near.tolist(), strict=True)]
-
-
-def _faults(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs,
-            effort: int, most: int) -> int:
-    """How often the caps of some stretches to the middle cross something or each other; it is not asked beyond most.
-
-    effort : how far to go for caps that do not, see discs.PLAIN.
-    """
-    faults, sheets = 0, []
-    for stretch in stretches:
-        curve = _curve(points, ways, stretch)
-        found = discs.tried(curve, effort=effort)
-        faults += found.faults
-        if faults >= most:
-            return faults
-        if found.disc is not None:
-            sheets.append((np.concatenate([curve, found.disc.places]), found.disc.triangles))
-    return faults + len(_crossings(sheets))
 
 
 def _crossings(sheets: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
