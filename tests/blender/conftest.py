@@ -71,9 +71,15 @@ def obj(make, tree):
 
 
 @pytest.fixture
-def result(obj):
+def parameters_of_result():
+    """Those that are not left at their defaults; a module may have others."""
+    return {}
+
+
+@pytest.fixture
+def result(obj, parameters_of_result):
     """What is stored with the tree once it is decomposed."""
-    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.decompose(**parameters_of_result)
     return obj.data.reeb_parts
 
 

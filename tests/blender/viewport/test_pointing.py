@@ -14,9 +14,8 @@ from snapshot import activate, check_undo, snapshot
 
 
 @pytest.fixture
-def result(obj):
-    bpy.ops.reeb_parts.decompose(method="berretti")
-    return obj.data.reeb_parts
+def parameters_of_result():
+    return {"method": "berretti"}  # of few parts
 
 
 def centers(obj):

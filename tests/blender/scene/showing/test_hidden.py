@@ -14,9 +14,8 @@ from snapshot import changes, snapshot
 
 
 @pytest.fixture
-def result(obj):
-    bpy.ops.reeb_parts.decompose(method="berretti")
-    return obj.data.reeb_parts
+def parameters_of_result():
+    return {"method": "berretti"}  # of few parts
 
 
 def seen(obj):
