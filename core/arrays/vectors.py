@@ -76,6 +76,15 @@ def row_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return total
 
 
+def distances_between(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Distance between the points of each pair, (k,) float64; points : (n, 2 or 3). a, b : (k,) int64."""
+    distance = np.empty(len(a))
+    for start in range(0, len(a), BLOCK):
+        some = slice(start, start + BLOCK)
+        distance[some] = lengths(points.take(a[some], axis=0) - points.take(b[some], axis=0))
+    return distance
+
+
 def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Sum of the outer product of each point, (n, 3), with itself, times its weight, (n,): (3, 3) float64."""
     x, y, z = points.T

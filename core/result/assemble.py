@@ -194,6 +194,8 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
     """
     kept = np.zeros(given.n_polygons, bool)
     kept[working.polygon] = True
+    if kept.all():
+        return np.empty((0, 2), np.int64)
     kept_triangle = kept[given.polygon]
     at_vertex = np.full(given.triangles.n_vertices, -1)
     at_vertex[given.triangles.faces[kept_triangle]] = given.polygon[kept_triangle][:, None]
@@ -247,8 +249,8 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
     width = np.full(given.n_polygons, np.inf)
     before = np.bincount(given.polygon, minlength=given.n_polygons)
     for r in results:
-        polygon, triangles = np.unique(r.component.polygon, return_counts=True)
-        width[polygon[triangles > before[polygon]]] = WIDTH * np.sqrt(r.component.mesh.area)
+        refined = np.bincount(r.component.polygon, minlength=given.n_polygons) > before
+        width[refined] = WIDTH * np.sqrt(r.component.mesh.area)
     return width
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays.indexing import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
 from ..arrays.pairs import both_ways
 from ..arrays.ties import TIE
-from ..arrays.vectors import lengths, row_products
+from ..arrays.vectors import distances_between, row_products
 from ..mesh.triangles import TriMesh
 from .ordering import rank_by_place
 
@@ -106,7 +106,7 @@ def _owners(points: np.ndarray, a: np.ndarray, b: np.ndarray, seed: np.ndarray) 
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
     a, b = a[near], b[near]
-    length = lengths(taken(points, a) - taken(points, b))
+    length = distances_between(points, a, b)
     start = run_starts(a)
     least = np.minimum.reduceat(length, start) if len(start) else length
     nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
@@ -236,7 +236,7 @@ def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray,
     Across needles vertices are much nearer to each other than along them. As in algebraic multigrid, cells grow across
     only, until they are about as wide as long; else the way around a cylinder of many sides would zigzag.
     """
-    length = lengths(taken(points, a) - taken(points, b))
+    length = distances_between(points, a, b)
     shortest = np.minimum.reduceat(length, np.searchsorted(a, np.arange(len(points))))
     short = length <= (1 + TIE) * SLIM * np.maximum(shortest[a], shortest[b])
     return a[short], b[short]

@@ -19,7 +19,7 @@ from ..arrays.indexing import bounds_of_each, frozen, hashed_rows, inverse, renu
 from ..arrays.ties import DENSE, TIE, ranks
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
-from ..mesh.triangles import TriMesh
+from ..mesh.triangles import TriMesh, of_corners
 from .diagonals import divided_by_shape, outer_first
 
 # The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
@@ -63,7 +63,7 @@ class Ordering:
         that decides where the shape is symmetric; that in which they are without it.
         """
         corner, axes = _in_own_frame(mesh, polygon, vertex_rank)
-        center = sum(corner[column] for column in mesh.faces.T) / 3
+        center = of_corners(corner, mesh.faces, lambda p, q, r: (p + q + r) / 3)
 
         def normal() -> np.ndarray:
             """Normal of each face, (m, 3), along the axes."""
@@ -107,7 +107,7 @@ class Ordering:
         """
         vertices, number = taken(mesh.vertices, self.vertex), inverse(self.vertex)
         triangle = stable_order(inverse(self.polygon)[polygon])
-        faces = number[mesh.faces[triangle]]
+        faces = number[taken(mesh.faces, triangle)]
         if len(self.polygon) < mesh.n_faces:
             outer = outer_first(TriMesh(vertices, faces), polygon[triangle])
             triangle, faces = triangle[outer], faces[outer]

@@ -16,7 +16,7 @@ from ..arrays.components import components
 from ..arrays.indexing import frozen, inverse, place_among, renumbered, stable_order, taken
 from ..arrays.pairs import distinct_pairs
 from ..arrays.ties import TIE
-from ..arrays.vectors import lengths
+from ..arrays.vectors import distances_between
 from ..mesh.borders import joined_borders
 from ..mesh.polygons import MIN_FACES, PolygonMesh
 from ..mesh.triangles import TriMesh, next_side
@@ -288,7 +288,7 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal. If both are equal, and
     # for the order of what a face becomes, numbers of vertices decide, not the way round the face: the mirror image of
     # a mesh is to become its mirror image.
-    from_a, from_b = (lengths(taken(vertices, p) - taken(vertices, q)) for p, q in ((a, bc), (b, ca)))
+    from_a, from_b = (distances_between(vertices, p, q) for p, q in ((a, bc), (b, ca)))
     at_a = (from_a < (1 - TIE) * from_b) | ((from_a <= (1 + TIE) * from_b) & (a < b))
     patterns = (
         (n_split == 0, ((a, b, c),)),
