@@ -32,7 +32,7 @@ from report_page import svg
 
 from core import PRESETS, Parameters, decompose
 
-SIZES = (3_000, 10_000, 36_000, 100_000, 250_000, 1_000_000)
+SIZES = (3_000, 10_000, 36_000, 100_000, 250_000, 1_000_000, 4_000_000)
 STAGES = ("mesh", "distances", "reeb graph", "cuts", "parts")
 # Vertices from which on the largest exponent of growth is read.
 LARGE = 30_000
