@@ -100,22 +100,30 @@ def part_bones(surface: BoneSurface) -> Bones:
         head[part] = joints.place(part, int(parent[part]), beyond[part], middle[part])
     if images is not None:
         head = images.even(head)
-    tail = head.copy()
     shortest = max(_SHORTEST * table.diagonal, np.finfo(float).tiny)
     shown = joints.by_cut(parent) | (beyond @ size >= _SHOWN * size[parent])
-    for part in order:
-        children = np.flatnonzero((parent == part) & shown)
-        ends, center_line, center = head[children], surface.line[surface.line_part == part], middle[[part]]
-        if images is not None and images.own[part]:
-            ends, center_line, center = (images.onto_plane(points) for points in (ends, center_line, center))
-        tail[part] = _end(head[part], ends, center_line, center, parent[part] < 0)
-        if np.linalg.norm(tail[part] - head[part]) < shortest:
-            tail[part] = head[part] + shortest * _up(images)
-    if images is not None:
-        tail = images.even(tail)
+    tail = _tails(surface, head, middle, parent, shown, shortest)
     only = (parent >= 0) & (np.bincount(parent[parent >= 0], minlength=count)[parent] == 1)
     connected = only & (np.linalg.norm(tail[parent] - head, axis=1) <= 1e-6 * shortest)
     return Bones(head, tail, parent, connected, tuple(order))
+
+
+def _tails(surface: BoneSurface, head: np.ndarray, middle: np.ndarray, parent: np.ndarray, shown: np.ndarray,
+           shortest: float) -> np.ndarray:
+    """Where the bones end, (count, 3).
+
+    head, middle : (count, 3), where they start, and middles of parts. shown : (count,) bool, the bones at which that on
+    which they hang may end. shortest : least length of a bone.
+    """
+    tail, images = head.copy(), surface.images
+    for part in range(len(parent)):
+        ends, line, center = head[(parent == part) & shown], surface.line[surface.line_part == part], middle[[part]]
+        if images is not None and images.own[part]:
+            ends, line, center = (images.onto_plane(points) for points in (ends, line, center))
+        tail[part] = _end(head[part], ends, line, center, parent[part] < 0)
+        if np.linalg.norm(tail[part] - head[part]) < shortest:
+            tail[part] = head[part] + shortest * _up(images)
+    return tail if images is None else images.even(tail)
 
 
 @dataclass(frozen=True, eq=False)
