@@ -60,22 +60,13 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
         return Planes(none, np.zeros(n), none, none)
     curve = _curves(band, crossed)
     count = curve.max() + 1
-    a, b = band.table.edges[crossed].T
-    point = band.table.vertices[a] + share[crossed, None] * (band.table.vertices[b] - band.table.vertices[a])
-    n_points, center = middles_of_each(curve, point, np.ones(len(point)), count)
-    offset = point - center[curve]
-    moments = second_moments_of_each(curve, offset, np.ones(len(point)), count)
-    size, axes = np.linalg.eigh(moments / n_points[:, None, None])
-    normal = axes[:, :, 0]
-    length = sums_by(curve, band.table.edge_length(crossed), count) / n_points
-    away = largest_of_each(curve, np.abs((offset * normal[curve]).sum(axis=1)), count)
-    pair = np.sort(np.stack([top[a], top[b]], axis=1), axis=1)
+    center, normal, away, fits = _nearest_planes(band, crossed, share[crossed], curve, bent)
+    pair = np.sort(top[band.table.edges[crossed]], axis=1)
     low, high = np.full((count, 2), len(band.names)), np.full((count, 2), -1)
     np.minimum.at(low, curve, pair)
     np.maximum.at(high, curve, pair)
-    fits = (low == high).all(axis=1) & (size[:, 1] > 0.01 * size[:, 2]) & (n_points >= 6)
-    fits &= away <= PLANE_EDGES * length + (BENT_RADIUS if bent else PLANE_RADIUS) * np.sqrt(size.sum(axis=1).clip(0))
-    rings = np.where(fits, np.ceil(away / np.maximum(length, 1e-300)).clip(max=steps) + 2, 0).astype(np.int64)
+    fits &= (low == high).all(axis=1)
+    rings = np.where(fits, np.ceil(away).clip(max=steps) + 2, 0).astype(np.int64)
     number, ring = _owners(band, crossed, curve, rings)
     height = ((band.table.vertices - center[number]) * normal[number]).sum(axis=1)
     planes = _with_sides(Planes(number, height, low[number, 0], low[number, 1]), top, count)
@@ -93,6 +84,29 @@ def _curves(band: Band, crossed: np.ndarray) -> np.ndarray:
     point, face = place[table.corner_edge[corner]], table.corner_face[corner]
     same = face[1:] == face[:-1]
     return components(len(crossed), point[1:][same], point[:-1][same])[1]
+
+
+def _nearest_planes(
+    band: Band, crossed: np.ndarray, share: np.ndarray, curve: np.ndarray, bent: bool
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The plane nearest to each curve, and whether it fits.
+
+    crossed, share, curve : (c,), edges that curves cross, where, and which curve does. Returns a point of each plane,
+    its normal, (curves, 3), how many edges the curve goes away from it, (curves,) float64, and whether it fits.
+    """
+    count = curve.max() + 1
+    start, end = band.table.vertices[band.table.edges[crossed]].transpose(1, 0, 2)
+    point = start + share[:, None] * (end - start)
+    n_points, center = middles_of_each(curve, point, np.ones(len(point)), count)
+    offset = point - center[curve]
+    moments = second_moments_of_each(curve, offset, np.ones(len(point)), count)
+    size, axes = np.linalg.eigh(moments / n_points[:, None, None])
+    normal = axes[:, :, 0]
+    length = sums_by(curve, band.table.edge_length(crossed), count) / n_points
+    away = largest_of_each(curve, np.abs((offset * normal[curve]).sum(axis=1)), count)
+    fits = (size[:, 1] > 0.01 * size[:, 2]) & (n_points >= 6)
+    fits &= away <= PLANE_EDGES * length + (BENT_RADIUS if bent else PLANE_RADIUS) * np.sqrt(size.sum(axis=1).clip(0))
+    return center, normal, away / np.maximum(length, 1e-300), fits
 
 
 def _owners(band: Band, crossed: np.ndarray, curve: np.ndarray, rings: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
