@@ -10,7 +10,7 @@ from ..core.sentence import Count
 from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.pieces import origins, piece_checks, piece_objects, piece_repairs
-from ..scene.reporting import ReportingOperator
+from ..scene.reporting import ReportingOperator, listed
 from ..scene.showing.selection import select_faces
 
 
@@ -80,16 +80,15 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         pieces = _chosen_pieces(context, self.report)
-        shared = ", ".join(piece.name for piece in pieces
-                           if len(targets.users(piece.data)) > 1 or piece.data.asset_data)
+        shared = [piece.name for piece in pieces if len(targets.users(piece.data)) > 1 or piece.data.asset_data]
         if shared:
-            raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=shared))
+            raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=listed(shared)))
         found = [piece_repairs.repair(piece, bridge.world_stretch(piece)) for piece in pieces]
         faulty = [piece.name for piece, (before, _) in zip(pieces, found, strict=True) if not before.sound]
         if not faulty:
             raise SceneError(rpt_("Nothing has to be repaired"))
         if all(after == before for before, after in found):
-            raise SceneError(rpt_("Nothing of {name} can be repaired").format(name=", ".join(faulty)))
+            raise SceneError(rpt_("Nothing of {name} can be repaired").format(name=listed(faulty)))
         report_unsound(self, pieces)
 
 
@@ -114,15 +113,15 @@ def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object],
     if wrong:
         operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are "
                                           "not closed or cross themselves}: {names}").format(
-            n=Count(len(wrong)), total=Count(len(pieces)), names=", ".join(wrong)))
+            n=Count(len(wrong)), total=Count(len(pieces)), names=listed(wrong)))
     if as_model:
         operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or "
                                           "cross themselves} as the model does there: {names}").format(
-            n=Count(len(as_model)), total=Count(len(pieces)), names=", ".join(as_model)))
+            n=Count(len(as_model)), total=Count(len(pieces)), names=listed(as_model)))
     if turned:
         operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: "
                                           "{names}").format(
-            n=Count(len(turned)), total=Count(len(pieces)), names=", ".join(turned)))
+            n=Count(len(turned)), total=Count(len(pieces)), names=listed(turned)))
     if not wrong and not as_model and not turned:
         operator.report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
                                        "cross themselves}").format(n=Count(len(pieces))))

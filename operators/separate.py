@@ -11,7 +11,7 @@ from ..scene import targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.pieces import origins, piece_objects, separation
-from ..scene.reporting import ReportingOperator, chosen_with_parts, with_current_parts
+from ..scene.reporting import ReportingOperator, chosen_with_parts, listed, with_current_parts
 from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
 from ..scene.showing.selection import in_layer, select_objects
@@ -95,10 +95,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if self.hide and (instances := piece_objects.instances(obj)):
             words = rpt_("{name} is missing from renders of instances of its collection: {names}")
             self.report({"WARNING"}, words.format(
-                name=obj.name, names=", ".join(instance.name for instance in instances)))
+                name=obj.name, names=listed([instance.name for instance in instances])))
         if self.hide and (scenes := piece_objects.other_scenes(obj)):
             self.report({"WARNING"}, rpt_("{name} is missing from renders of other scenes: {names}").format(
-                name=obj.name, names=", ".join(scene.name for scene in scenes)))
+                name=obj.name, names=listed([scene.name for scene in scenes])))
         if separated.n_apart:
             self.report({"WARNING"}, rpt_(
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
@@ -113,7 +113,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 n=Count(separated.more)))
         if separated.too_long:
             self.report({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
-                names=", ".join(separated.names[key] for key in separated.too_long)))
+                names=listed([separated.names[key] for key in separated.too_long])))
         report_kept(self, separated.kept)
         if separated.along_faces:
             message = rpt_("{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there")
@@ -148,7 +148,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         ):
             names = [separated.cut_name(cut) for cut in cuts if cut.why == why]
             if names:
-                self.report({"WARNING"}, sentence.format(cuts=", ".join(names)))
+                self.report({"WARNING"}, sentence.format(cuts=listed(names)))
 
 
 class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):

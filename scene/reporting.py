@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from . import store, targets
@@ -17,6 +18,8 @@ from .modes import object_mode
 from .result.part_list import check_parts
 from .store import Stored
 from .transaction import transaction
+
+MOST_NAMES = 12  # that a report has; who needs the others finds them in the list of cuts, or by Check Parts
 
 
 class ReportingOperator:
@@ -120,6 +123,13 @@ def with_current_parts(objects: list[bpy.types.Object],
                        report: Callable[[set[str], str], None]) -> Iterator[tuple[bpy.types.Object, Stored]]:
     """Yield objects with their parts, without those whose parts are out of date; see ``targets.usable``."""
     return targets.usable(objects, lambda obj: moved.load(obj.data), report)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names as a report has them: of more than MOST_NAMES the first, and how many more there are."""
+    shown = ", ".join(names[:MOST_NAMES])
+    more = len(names) - MOST_NAMES
+    return rpt_("{names} and {n} more").format(names=shown, n=more) if more > 0 else shown
 
 
 @contextmanager

@@ -158,6 +158,7 @@ TEXTS = {
     "back": "hinten", "top": "oben", "bottom": "unten", "left": "links", "right": "rechts",
     "This viewport does not show the parts.": "Diese Ansicht zeigt die Teile nicht.",
     "and {n} more {n:model|models}": "und {n} {n:weiteres Modell|weitere Modelle}",
+    "{names} and {n} more": "{names} und {n} mehr",
     "Show the parts' colors in this viewport: Solid, colored by attribute":
         "Die Farben der Teile in dieser Ansicht zeigen: Solid, nach Attribut gefärbt",
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":

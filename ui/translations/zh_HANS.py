@@ -173,6 +173,7 @@ TEXTS = {
     "right": "右",
     "This viewport does not show the parts.": "此视图未显示部件。",
     "and {n} more {n:model|models}": "以及另外 {n} 个模型",
+    "{names} and {n} more": "{names} 以及另外 {n} 个",
     "Show the parts' colors in this viewport: Solid, colored by attribute":
         "在此视图中显示部件的颜色：实体模式，按属性着色",
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":

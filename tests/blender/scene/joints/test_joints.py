@@ -244,6 +244,12 @@ def test_parts_that_are_not_closed_stay_without_and_it_is_said(make, capfd):
     assert "Warning: No joint where a part is not closed or crosses itself: Part 01 - Part 02" in out
 
 
+def test_of_many_cuts_without_joints_the_first_are_named(scene_module):
+    listed, names = scene_module("reporting").listed, [f"{k} - {k + 1}" for k in range(15)]
+    assert listed(names[:12]) == ", ".join(names[:12])
+    assert listed(names) == f"{', '.join(names[:12])} and 3 more"
+
+
 def test_without_any_cut_it_is_said_that_there_are_no_joints(make, capfd):
     """It was reported as if all were well: 0 of 0 cuts have joints."""
     make(shapes.cylinder(40, 24, 0.5, 6.0), "Tree")
