@@ -18,5 +18,5 @@ How polygons hang together:
 
 What lies on them:
 
-- ``labels``: labels on faces: votes, boundaries, connected labels
+- ``labels``: labels on faces: votes, boundaries, connected labels, and the graph of faces across edges
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Labels on faces: votes for labels, boundaries between labels, connected labels, straight boundaries."""
+"""Labels on faces, and the graph of faces across edges: votes, boundaries of labels, connected and straight labels."""
 
 from __future__ import annotations
 
