@@ -229,34 +229,34 @@ def ranges(first: np.ndarray, count: np.ndarray) -> np.ndarray:
     return np.arange(total) + np.repeat(first - before, count)
 
 
-def spread_evenly(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
-    """Choose faces at equal steps of area.
+def spread_evenly(weight: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
+    """Choose elements at equal steps of weight, such as faces at equal steps of area.
 
     Parameters
     ----------
-    area : (m,) float64
-        Of each face.
+    weight : (m,) float64
+        Of each element.
     order : (m,) float64
-        By which the faces are sorted; values that do not depend on the order of the faces, such as the AGD, make the
-        choice independent of it.
+        By which elements are sorted; values that do not depend on the order of the elements, such as the AGD of faces,
+        make the choice independent of it.
     count : int
         Number of steps.
 
     Returns
     -------
-    faces : (count,) int64 or fewer
-        In their order; a face as large as several steps once.
+    chosen : (count,) int64 or fewer
+        In their order; an element as heavy as several steps once.
     """
     along = rounded_order(order)
-    return along[even_steps(area[along], count)]
+    return along[even_steps(weight[along], count)]
 
 
-def even_steps(area: np.ndarray, count: int) -> np.ndarray:
-    """Places at equal steps of area, (count,) int64 or fewer, among faces in some order. area : (m,) float64."""
-    total = np.cumsum(area)
-    # Where a face ends at a step, as many do on a regular grid, the step is in this face.
+def even_steps(weight: np.ndarray, count: int) -> np.ndarray:
+    """Places at equal steps of weight, (count,) int64 or fewer, among elements in some order. weight : (m,) float64."""
+    total = np.cumsum(weight)
+    # Where an element ends at a step, as many faces do on a regular grid, the step is in this element.
     steps = (np.arange(count) + 0.5) / count * total[-1] * (1 - TIE)
-    return np.unique(np.searchsorted(total, steps).clip(max=len(area) - 1))
+    return np.unique(np.searchsorted(total, steps).clip(max=len(weight) - 1))
 
 
 def first_at_place(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
