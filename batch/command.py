@@ -29,7 +29,7 @@ import bpy
 
 from ..core.errors import ParameterError, ReebError
 from ..core.file_names import readable
-from ..core.options import chosen_parameters
+from ..core.options import FAILED, WRONG_OPTION, chosen_parameters
 from ..scene import store, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_finding
@@ -47,8 +47,6 @@ from .interrupt import Interrupted, Interrupts
 from .messages import problem, say
 from .models import find_objects
 from .options import parser, separate_style
-
-FAILED, WRONG_OPTION = 1, 2  # the latter is argparse's
 
 
 def main(arguments: list[str]) -> int:

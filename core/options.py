@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of a command that set parameters, made from the definitions of the parameters."""
+"""The options of a command that set parameters, made from the definitions of the parameters; its exit statuses."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from pathlib import Path
 
 from .parameters import PRESETS, RENAMED, Parameters, present_names
 from .sentence import Sentence
+
+FAILED, WRONG_OPTION = 1, 2  # exit statuses of a command; the latter is argparse's
 
 
 def add_parameters(group: argparse._ArgumentGroup) -> None:

@@ -132,6 +132,20 @@ def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, 
     assert model.read_bytes() == before
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="there a folder stays while somebody works in it")
+@pytest.mark.parametrize("arguments", [
+    ["decompose", "MODEL", "--json", "x.json"], ["batch", "models", "--out", "results"],
+])  # fmt: skip
+def test_a_working_folder_that_is_gone_is_one_sentence(arguments, model, reeb_parts_command, tmp_path):
+    """It was a traceback."""
+    (tmp_path / "gone").mkdir()
+    gone = {"cwd": tmp_path / "gone", "preexec_fn": (tmp_path / "gone").rmdir}
+    done = reeb_parts_command(*(model if word == "MODEL" else word for word in arguments), **gone)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "The folder in which the command was started is gone." in done.stderr.splitlines()[-1]
+    assert "Traceback" not in done.stderr
+
+
 def _without_a_normal(tree, path):
     """A file of words in which a number became bytes of zero."""
     text = trimesh.exchange.stl.export_stl_ascii(trimesh.Trimesh(*tree, process=False))
