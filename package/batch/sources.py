@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import glob
 import os
 import stat
@@ -53,7 +54,8 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     root : Path, optional
         What names begin below; without it the folder that is a place, or the innermost one that holds all places.
     unread : callable(error), optional
-        Told of each folder below a place, or on the way of a pattern, in which nobody can look.
+        Told of each folder below a place, or on the way of a pattern, in which nobody can look, and of each model
+        that is left out as another one has its name.
 
     Returns
     -------
@@ -79,7 +81,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         raise SourceError(Sentence("{n} {n:model is|models are} not in {root} (first: {first}).", n=len(outside),
                                    root=root, first=outside[0]))
     named = (Source(path, readable(path.relative_to(root).as_posix())) for path in paths)
-    sources = sorted(named, key=lambda source: source.name)
+    sources = _without_namesakes(sorted(named, key=lambda source: (source.name, source.path)), unread)
     _check_folders(sources, out)
     return sources
 
@@ -99,6 +101,15 @@ def is_gone(place: str, kinds: tuple[str, ...]) -> bool:
 def folder_of(out: Path, name: str) -> Path:
     """Where the results of the model of a name are."""
     return out / "models" / spelled(name)
+
+
+def _without_namesakes(sources: list[Source], unread: Callable[[OSError], object] | None) -> list[Source]:
+    """Leave out models that have the name of one before them: a byte that is no UTF-8 is named by letters, as \\xdf."""
+    kept: dict[str, Source] = {}
+    for source in sources:
+        if kept.setdefault(source.name, source) is not source and unread is not None:
+            unread(FileExistsError(errno.EEXIST, "another model has its name", str(source.path)))
+    return list(kept.values())
 
 
 def _check_folders(sources: list[Source], out: Path) -> None:

@@ -152,7 +152,7 @@ class _Batch:
         return [place for place in listed if place not in known]
 
     def _unread(self, error: OSError) -> None:
-        """Say that nobody can look into a folder; one that is gone by now has no models."""
+        """Say that a folder or a model is left out; a folder that is gone by now has no models."""
         if not isinstance(error, FileNotFoundError):
             self.unread.append(readable(error.filename))
             say(f"{error.filename} could not be read: {error.strerror}")

@@ -1067,3 +1067,15 @@ def test_a_file_whose_name_is_no_utf8_is_a_model_as_any_other(tree, reeb_parts_c
     assert answer["objects"][0]["name"] == r"Stra\xdfe"
     assert answer["files"]["labels"].endswith(r"Stra\xdfe.npy")
     assert odd.with_suffix(".npy").is_file()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
+def test_of_two_models_of_one_name_one_is_left_out_and_said_to_be(tree, tmp_path):
+    """They shared a folder, so that both were "done", each with the results of whichever came last."""
+    letters = save(tree, tmp_path / r"a\xdf.ply")
+    byte = Path(os.fsdecode(os.fsencode(tmp_path) + b"/a\xdf.ply"))
+    shutil.copy(letters, byte)
+    said = []
+    sources = find_sources([str(tmp_path)], (".ply",), tmp_path / "out", unread=said.append)
+    assert [source.path for source in sources] == [letters]
+    assert [error.filename for error in said] == [str(byte)]
