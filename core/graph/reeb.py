@@ -35,7 +35,7 @@ class ReebGraph:
         the normalized field.
     node_position : (k, 3) float64
         Position of each node, in units of the vertices: on the surface for a minimum or maximum, for a saddle
-        the centroid of the contours that meet there.
+        the middle, by area, of the slab pieces that it stands for.
     arcs : (q, 2) int64
         Lower and upper node of each arc. Two nodes may share several arcs, which form loops.
     arc_points : (q + 1,) int64
