@@ -92,7 +92,7 @@ class PolygonMesh:
             raise EmptyMeshError(
                 Sentence("The mesh has no faces. Add some, or choose another object."))
         vertices = positions(vertices)
-        if vertices.ndim:  # or TriMesh says what they are
+        if vertices.shape[1:] == (3,):  # or TriMesh says what they are
             check_corners(faces, len(vertices), polygon)
         triangles, exponent = normalized(TriMesh(vertices, faces))
         if sizes is not None and (cut := without_folds(triangles.vertices, faces, sizes)) is not faces:

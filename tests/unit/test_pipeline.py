@@ -593,6 +593,8 @@ def test_wrong_indices_are_said_of_the_faces_of_the_caller(faces, wrong):
     (shapes.box().vertices, shapes.box().faces + 1, MeshError, "name a vertex that does not exist"),
     (shapes.box().vertices, shapes.box().faces + 0.5, MeshError, "must be whole numbers"),
     (shapes.box().vertices[:, :2], shapes.box().faces, MeshError, "shape"),
+    (shapes.box().vertices.T, shapes.box().faces, MeshError, r"shape \(n, 3\), not \(3, 8\)"),
+    (shapes.box().vertices[None], shapes.box().faces, MeshError, r"shape \(n, 3\), not \(1, 8, 3\)"),
     (shapes.box().vertices, [[0, 1, 2], [1, 2], [2, 3, 4], [4, 5, 6]], MeshError, "1 face has fewer than three"),
 ])
 def test_bad_input_gets_its_sentence(vertices, faces, kind, message):
