@@ -28,7 +28,7 @@ from typing import Any, TextIO
 import bpy
 
 from ..core.errors import ParameterError, ReebError
-from ..core.file_names import readable
+from ..core.file_names import NO_WORKING_FOLDER, has_working_folder, readable
 from ..core.options import FAILED, WRONG_OPTION, chosen_parameters
 from ..scene import store, targets
 from ..scene.errors import SceneError, load_core
@@ -65,6 +65,11 @@ def main(arguments: list[str]) -> int:
         except (SceneError, ReebError) as error:
             say(str(error))
             return WRONG_OPTION if isinstance(error, ParameterError) else FAILED
+        except FileNotFoundError:
+            if has_working_folder():
+                raise
+            say(NO_WORKING_FOLDER)
+            return FAILED
         try:
             answer.write(_as_text(result))
             answer.flush()

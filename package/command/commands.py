@@ -7,9 +7,9 @@
 from __future__ import annotations
 
 import argparse
-import os
 
 from ..core.errors import ParameterError, ReebError
+from ..core.file_names import NO_WORKING_FOLDER, has_working_folder
 from ..core.options import FAILED, WRONG_OPTION
 from ..core.version import VERSION
 from . import batch, decompose, similar
@@ -49,17 +49,8 @@ def run(options: argparse.Namespace) -> int:
     except MemoryError:
         say("There is not enough memory.")
         return FAILED
-    except FileNotFoundError:  # nobody can tell where a relative name leads
-        if _has_working_folder():
-            raise
-        say("The folder in which the command was started is gone. Change to one that is there.")
-        return FAILED
-
-
-def _has_working_folder() -> bool:
-    """Whether the folder in which the command was started is still there."""
-    try:
-        os.getcwd()
     except FileNotFoundError:
-        return False
-    return True
+        if has_working_folder():
+            raise
+        say(NO_WORKING_FOLDER)
+        return FAILED

@@ -45,6 +45,17 @@ def test_parts_in_files_are_cut_as_asked(run, model, tmp_path):
     assert new_points(model, ended.answer["files"]["parts"]) > 20
 
 
+@pytest.mark.skipif(os.name == "nt", reason="there a folder stays while somebody works in it")
+@pytest.mark.parametrize("arguments", [["MODEL", "--json", "x.json"], ["own.obj"]])
+def test_a_working_folder_that_is_gone_is_one_sentence(arguments, run, model, tmp_path, monkeypatch):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    ended = run(*(model if word == "MODEL" else word for word in arguments))
+    assert (ended.status, ended.out) == (1, "")
+    assert "The folder in which the command was started is gone." in ended.err
+
+
 def new_points(model, parts):
     """How many points of the files of parts are nowhere in the model, all of them .obj."""
     known, found = ([line.split()[1:4] for path in paths for line in Path(path).read_text().splitlines()
