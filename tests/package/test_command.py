@@ -135,7 +135,7 @@ def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, 
 @pytest.mark.skipif(sys.platform == "win32", reason="there a folder stays while somebody works in it")
 @pytest.mark.parametrize("arguments", [
     ["decompose", "MODEL", "--json", "x.json"], ["batch", "models", "--out", "results"],
-])  # fmt: skip
+])
 def test_a_working_folder_that_is_gone_is_one_sentence(arguments, model, reeb_parts_command, tmp_path):
     """It was a traceback."""
     (tmp_path / "gone").mkdir()
