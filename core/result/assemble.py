@@ -73,7 +73,8 @@ def assemble(
     values, notes = _vertex_field(given, working, results, parameters)
     nodes, points = _graph_candidates(results, candidates.label)
     n_contacts = sum(len(r.contacts) for r in results)  # all others are links
-    mirror = Mirror.joined(mirrors)
+    first_shown = candidates.hierarchy.parts_at(Parameters().detail)[candidates.label]
+    mirror = Mirror.joined([mirror.parting(first_shown) for mirror in mirrors])
     return Decomposition(
         **tables.attributes(), hierarchy=candidates.hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,

@@ -101,6 +101,15 @@ class Mirror:
         beside = sum(step * plane.height for step, plane in zip(steps, planes, strict=True))
         return replace(self, group=group, beside=beside)
 
+    def parting(self, part: np.ndarray) -> Mirror:
+        """Of this plane and those across it the one in which most faces have their images in other parts, as limbs do.
+
+        A figure whose front is the image of its back, too, is left and right in this one. This one if several are
+        equal. part : (p,) int64.
+        """
+        return max((self, *self.across),
+                   key=lambda plane: np.count_nonzero((plane.twin >= 0) & (part[plane.twin] != part)))
+
     @classmethod
     def of_topology(cls, found: TopologyMirror) -> Mirror:
         """The symmetry of a mesh in another pose: without a plane."""

@@ -56,6 +56,18 @@ def test_without_symmetry_nothing_has_a_twin(posed):
     assert len(decompose(*posed, parameters=Parameters(symmetry=False)).face_twin) == 0
 
 
+def test_a_figure_whose_front_is_the_image_of_its_back_is_named_by_side():
+    solid = np.zeros((16, 2, 14), bool)
+    solid[6:10] = True
+    solid[:, :, 10:12] = True  # the arms
+    vertices, faces = shapes.blocks(solid)
+    result = decompose(vertices, faces)
+    parts, middle = result.parts(), vertices[faces].mean(axis=1)[:, 0]
+    assert np.abs(result.plane.normal) == pytest.approx([1, 0, 0])
+    assert set(parts.side[parts.labels[np.abs(middle) > 4]].tolist()) == {-1, 1}
+    assert (parts.side[parts.labels] * np.sign(middle) >= 0).all()
+
+
 @pytest.mark.parametrize(("lump", "least", "most"), [(0.0, 1.0, 1.0), (0.34, 0.95, 0.99), (0.4, 0.85, 0.95)])
 def test_nothing_found_speaks_against_a_plane_that_mirrors_nearly_all(lump, least, most):
     """A figure with a lump on one hand: none of its faces has an exact image any more, but most have one."""
