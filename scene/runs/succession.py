@@ -77,12 +77,13 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
 
     most : (p,) int64, what most faces of each face's candidate are pinned to; new faces go with them.
     """
-    from ...core.result.editing.finer_candidates import split_around
+    from ...core.result.editing.finer_candidates import scraps_joined, split_around
 
     pinned = np.where(former.number > 0, former.pinned, most)
     if np.array_equal(pinned, most):
         return decomposition
-    return split_around(decomposition, pinned, *bridge.face_graph(obj, shape))
+    finer = split_around(decomposition, pinned, *bridge.face_graph(obj, shape))
+    return scraps_joined(finer, pinned, former.number)
 
 
 def _last(mesh: bpy.types.Mesh) -> Stored | None:

@@ -7,15 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays.indexing import last_of_each
+from ...arrays.pairs import both_ways
 from ...arrays.vectors import row_products
-from ...cuts.hierarchy import Hierarchy
+from ...cuts.hierarchy import Dendrogram, Hierarchy
 from ...graph.critical import SADDLE
 from ...mesh.corners import CornerTable
-from ...mesh.labels import FaceGraph, majority
+from ...mesh.labels import FaceGraph, majority, spread
 from ...mesh.triangles import vote_weights
 from ..decomposition import Decomposition
 from ..junctions import boundaries, junctions
 from .contour_cut import contours
+
+SCRAP = 0.03  # share of a part below which a candidate of it is a scrap beside a pinned part
 
 
 def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceGraph) -> np.ndarray:
@@ -77,6 +81,48 @@ def split_around(
     for bit in range(int(place.max(initial=0)).bit_length()):
         decomposition = split_candidates(decomposition, (place >> bit) & 1 == 1, graph, table)
     return decomposition
+
+
+def scraps_joined(finer: Decomposition, number: np.ndarray, before: np.ndarray) -> Decomposition:
+    """Have scraps beside pinned parts merge first with what they were one part with.
+
+    Scraps are small and would merge with what is pinned before anything else: where new cuts are not those of before,
+    each would be a part of its own.
+
+    Parameters
+    ----------
+    finer : Decomposition
+        p faces and c candidates, as ``split_around`` returns it.
+    number : (p,) int64
+        What ``split_around`` was given: 0 for faces that are in no pinned part.
+    before : (p,) int64
+        Number of the part that each face was in until now.
+
+    Returns
+    -------
+    decomposition : Decomposition
+        With other merges. Scraps that touch nothing that was in their part, but what is pinned, stay as they are.
+    """
+    count, area, pairs = finer.n_candidates, finer.candidate_area, finer.candidate_pairs
+    pinned = np.bincount(finer.candidates, number, count) > 0
+    was = majority(finer.candidates, before, np.ones(len(before)), count)
+    joins = ~pinned[pairs].any(axis=1) & (was[pairs[:, 0]] == was[pairs[:, 1]])
+    first = last_of_each(both_ways(pairs)[:, 0], -np.tile(finer.pair_merge, 2), count=count)
+    goes = np.append(both_ways(pairs)[:, 1], -1)[first]
+    small = area < SCRAP * np.bincount(was, area)[was]
+    scrap = ~pinned & small & (goes >= 0) & pinned[goes]
+    longest_last = np.argsort(np.tile(finer.candidate_pair_length[joins], 2), kind="stable")
+    goal = spread(np.where(scrap, -1, np.arange(count)), *both_ways(pairs[joins])[longest_last].T)
+    scraps = np.flatnonzero(scrap & (goal >= 0))
+    if not len(scraps):
+        return finer
+    without = np.arange(count)
+    without[scraps] = goes[scraps]
+    old = finer.hierarchy
+    merges = np.concatenate([np.stack([goal[scraps], scraps], axis=1), without[old.merges]])
+    salience = np.concatenate([np.zeros(len(scraps)), old.salience])
+    rows = Dendrogram.of(count, merges).rows
+    return replace(finer, hierarchy=Hierarchy.of(count, merges[rows], salience[rows]))
 
 
 def split_candidates(

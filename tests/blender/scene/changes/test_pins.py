@@ -235,6 +235,22 @@ def test_pins_follow_the_faces_of_an_edited_mesh(mesh, way):
     check(mesh, was, pinned)
 
 
+def test_a_cut_beside_a_pinned_part_leaves_no_scraps(mesh):
+    """Where the new cut of an edited mesh lies inside of what was not pinned, each face between was a part."""
+    parts, pinned = by_hand(mesh, "merge")
+    beside = next(number for number in parts[~pinned] if number != parts[0])
+    edges = {edge for face in np.flatnonzero(parts == beside) for edge in mesh.polygons[face].edge_keys}
+    rim = pinned & [bool(edges.intersection(polygon.edge_keys)) for polygon in mesh.polygons]
+    found = np.where(rim, beside, parts)
+    assert 5 < rim.sum() < 40
+    mesh.attributes["reeb_part"].data.foreach_set("value", found)
+    mesh.vertices[0].co.x += 1e-4
+    bpy.ops.reeb_parts.decompose()
+    check(mesh, found, pinned & ~rim)
+    np.testing.assert_array_equal(numbers(mesh)[rim], found[rim])
+    assert set(numbers(mesh).tolist()) == set(found.tolist())
+
+
 def test_faces_that_are_new_within_a_pinned_part_are_pinned(mesh):
     """A few faces have no number: they are where most of their candidate is, as they were before."""
     parts, pinned = by_hand(mesh, "merge")
