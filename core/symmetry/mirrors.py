@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..mesh.labels import majority
 from ..mesh.triangles import TriMesh
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
 from .group import SymmetryGroup
@@ -43,7 +44,8 @@ class Mirror:
     exact : bool
         Whether all faces are exact mirror images of others, or of themselves; or whether twins hang together alike.
     across : tuple of Mirror
-        Of an exact one: others across it and each other that are exact, too.
+        Of an exact one: others across it and each other that are exact, too. Of one of faces that are too large: those
+        of ``within``.
     within : tuple of Images
         If the faces are too large to be mirrored, what the planes in which smaller ones are to be do, this one first;
         then a twin is the face that most of an image lies in.
@@ -83,6 +85,8 @@ class Mirror:
         if (images.twins < 0).all():
             return None
         across = tuple(cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.exact[1:])
+        if images.within:
+            across = tuple(cls._in(other.plane, other.twins, mesh, polygon) for other in images.within[1:])
         mirror = replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across,
                          within=tuple(images.within))
         return mirror._with_group([cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.meeting])
@@ -102,13 +106,19 @@ class Mirror:
         return replace(self, group=group, beside=beside)
 
     def parting(self, part: np.ndarray) -> Mirror:
-        """Of this plane and those across it the one in which most faces have their images in other parts, as limbs do.
+        """Of this plane and those across it the one in which most faces are in a part that has another as its image.
 
         A figure whose front is the image of its back, too, is left and right in this one. This one if several are
         equal. part : (p,) int64.
         """
-        return max((self, *self.across),
-                   key=lambda plane: np.count_nonzero((plane.twin >= 0) & (part[plane.twin] != part)))
+        count = int(part.max(initial=-1)) + 1
+
+        def limbs(plane: Mirror) -> int:
+            image = np.where(plane.twin >= 0, part[plane.twin], -1)
+            image = majority(part, image + 1, np.ones(len(part)), count) - 1
+            return int(np.count_nonzero((image[part] >= 0) & (image[part] != part)))
+
+        return max((self, *self.across), key=limbs)
 
     @classmethod
     def of_topology(cls, found: TopologyMirror) -> Mirror:
@@ -127,7 +137,7 @@ class Mirror:
         side = found.side if area @ (found.side * self.height) >= 0 else -found.side
         by_plane = (found.twin < 0) & (self.twin >= 0) & (found.twin[self.twin] < 0)
         return replace(self, twin=np.where(by_plane, self.twin, found.twin),
-                       height=np.where(by_plane, self.height, side), within=(), exact=True)
+                       height=np.where(by_plane, self.height, side), within=(), across=(), exact=True)
 
     @classmethod
     def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:

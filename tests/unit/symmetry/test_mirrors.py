@@ -56,11 +56,16 @@ def test_without_symmetry_nothing_has_a_twin(posed):
     assert len(decompose(*posed, parameters=Parameters(symmetry=False)).face_twin) == 0
 
 
-def test_a_figure_whose_front_is_the_image_of_its_back_is_named_by_side():
+@pytest.mark.parametrize("divided", [False, True])
+def test_a_figure_whose_front_is_the_image_of_its_back_is_named_by_side(divided):
+    """Also where its quads are divided along one diagonal or the other, so that the faces are no exact images."""
     solid = np.zeros((16, 2, 14), bool)
     solid[6:10] = True
     solid[:, :, 10:12] = True  # the arms
     vertices, faces = shapes.blocks(solid)
+    if divided:
+        turned = np.where(np.random.default_rng(0).random((len(faces), 1)) < 0.5, np.roll(faces, 1, axis=1), faces)
+        faces = turned[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
     result = decompose(vertices, faces)
     parts, middle = result.parts(), vertices[faces].mean(axis=1)[:, 0]
     assert np.abs(result.plane.normal) == pytest.approx([1, 0, 0])
