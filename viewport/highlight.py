@@ -65,7 +65,8 @@ def curves_of(obj: bpy.types.Object, cut: str) -> Curves | None:
         cut = "SMOOTH"
     result = obj.data.reeb_parts
     stretch = bridge.world_stretch(obj)
-    key = (obj.data.session_uid, result.fingerprint, result.numbers, stretch.tobytes(), cut)
+    # Seconds are those of a run: what it replaced may have been unreadable.
+    key = (obj.data.session_uid, result.fingerprint, result.numbers, result.seconds, stretch.tobytes(), cut)
     return _searches.of(key, partial(_finding, obj.name, obj.data.session_uid, cut), len(obj.data.polygons) <= AT_ONCE)
 
 
@@ -183,8 +184,8 @@ def _build(obj: bpy.types.Object, numbers: list[int], show_cuts: bool, cut: str)
     hidden = selection.hidden_faces(obj.data).tobytes() if selection.hides_faces(obj.data) else b""
     keys = obj.data.shape_keys
     mix = [(key.value, key.mute) for key in keys.key_blocks] + [obj.active_shape_key_index] if keys else []
-    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers), hash(hidden),
-           tuple(mix), version(obj), show_cuts, cut, curves is None)
+    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, result.seconds, tuple(numbers),
+           hash(hidden), tuple(mix), version(obj), show_cuts, cut, curves is None)
     if key == _built:
         return
     _built = key

@@ -80,6 +80,19 @@ def test_arcs_are_colored_anew_once_the_mesh_is_edited(package, markers, obj, ar
         arcs()
 
 
+def test_arcs_are_colored_anew_once_an_unreadable_result_is_replaced(markers, obj, arcs):
+    """The same parts, of a file that a newer version wrote, were drawn without colors for the rest of the session."""
+    result = obj.data.reeb_parts
+    arcs()
+    for _ in range(2):  # numbers and all that is shown are the same after both
+        numbers, result.data = result.numbers, b"of a newer version"
+        result.seconds = 12.5
+        before = markers.state(obj, list(obj.children))
+        bpy.ops.reeb_parts.decompose()
+    assert result.numbers == numbers
+    assert markers.state(obj, list(obj.children)) != before
+
+
 def test_arcs_keep_their_colours_in_edit_mode(obj, arcs):
     before = arcs()
     bpy.ops.object.mode_set(mode="EDIT")
