@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..arrays.indexing import is_last_of_each
+from ..arrays.indexing import is_last_of_each, renumbered
 from ..arrays.pairs import both_ways
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
@@ -250,8 +250,8 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
     width = np.full(given.n_polygons, np.inf)
     before = np.bincount(given.polygon, minlength=given.n_polygons)
     for r in results:
-        refined = np.bincount(r.component.polygon, minlength=given.n_polygons) > before
-        width[refined] = WIDTH * np.sqrt(r.component.mesh.area)
+        polygon, place = renumbered(r.component.polygon)
+        width[polygon[np.bincount(place) > before[polygon]]] = WIDTH * np.sqrt(r.component.mesh.area)
     return width
 
 

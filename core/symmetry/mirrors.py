@@ -111,6 +111,8 @@ class Mirror:
         A figure whose front is the image of its back, too, is left and right in this one. This one if several are
         equal. part : (p,) int64.
         """
+        if not self.across:
+            return self
         count = int(part.max(initial=-1)) + 1
 
         def limbs(plane: Mirror) -> int:
