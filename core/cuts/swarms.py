@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.nearest import nearest, nearest_larger, nearest_to_middle, search_tree
 from ..arrays.ties import TIE
-from ..arrays.vectors import middles_of_each
+from ..arrays.vectors import distances_between, middles_of_each
 from ..mesh.triangles import TriMesh
 from .face_candidates import FaceCandidates
 from .hierarchy import Dendrogram, Hierarchy
@@ -59,7 +59,7 @@ def find_swarms(area: np.ndarray, center: np.ndarray, extent: np.ndarray, larges
     _, near = nearest(search_tree(center), center, list(range(1, min(AROUND + 1, len(small)) + 1)))
     a, b = np.repeat(np.arange(len(small)), near.shape[1]), near.ravel()
     less, more = np.minimum(size[a], size[b]), np.maximum(size[a], size[b])
-    apart = np.linalg.norm(center[a] - center[b], axis=1)
+    apart = distances_between(center, a, b)
     unlike = np.abs(np.log((extent[a] + THIN) / (extent[b] + THIN))).max(axis=1)
     joins = (more <= (1 + TIE) * np.sqrt(ALIKE) * less) & (unlike <= (1 + TIE) * SHAPE)
     joins &= apart <= (1 + TIE) * NEAR * (less + more) / 2

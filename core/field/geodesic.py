@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..arrays.indexing import run_starts, stable_order, taken
 from ..arrays.pairs import edge_keys, symmetric_matrix
-from ..arrays.vectors import lengths, row_products
+from ..arrays.vectors import distances_between, lengths, row_products
 from ..errors import DisconnectedMeshError
 from ..mesh.triangles import ON_A_LINE, TriMesh
 from ..sentence import Sentence
@@ -75,7 +75,7 @@ def _path_graph(mesh: TriMesh, links: np.ndarray) -> csr_array:
     source, target, seen = lines_in_sight(mesh)
     rows = np.concatenate([mesh.edges.vertices[:, 0], c, source, links[:, 0]])
     columns = np.concatenate([mesh.edges.vertices[:, 1], d, target, links[:, 1]])
-    straight = np.linalg.norm(mesh.vertices[links[:, 0]] - mesh.vertices[links[:, 1]], axis=1)
+    straight = distances_between(mesh.vertices, *links.T)
     length = np.concatenate([mesh.edge_length, across, seen, straight])
     return _shortest_of(rows, columns, length, mesh.n_vertices)
 

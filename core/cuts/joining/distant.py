@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...arrays.pairs import edge_keys, pair_keys
 from ...arrays.ties import on_grid, rounded
+from ...arrays.vectors import distances_between
 from .pairs import PartPairs, Salience, cut_between
 
 MOST_COMPARED = 80  # parts that are compared with all others; pairs grow as the square of it
@@ -152,7 +153,7 @@ def _joining(pairs: np.ndarray, level: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 def _ways(near: np.ndarray, center: np.ndarray, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Fewest steps, and shortest way from center to center, between some parts along near pairs; (k, k) each."""
-    length = np.linalg.norm(center[near[:, 0]] - center[near[:, 1]], axis=1) + 1e-6
+    length = distances_between(center, *near.T) + 1e-6
     graph = csr_array((length, near.T), shape=(len(center), len(center)))
     steps = dijkstra(graph, directed=False, indices=chosen, unweighted=True)[:, chosen]
     way = dijkstra(graph, directed=False, indices=chosen)[:, chosen]

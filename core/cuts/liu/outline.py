@@ -12,6 +12,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ...arrays.pairs import symmetric_matrix
 from ...arrays.ties import first_largest
+from ...arrays.vectors import distances_between
 
 LANDMARKS = 10  # number of patches from which inner distances run; more than the tips that a shape has
 PIXELS = 48  # number of pixels along the longer side of the outline
@@ -57,7 +58,7 @@ def inner_distances(position: np.ndarray, pairs: np.ndarray) -> tuple[np.ndarray
 
     position : (k, 2) float64. pairs : (b, 2) int64. Returns (l,) int64 and (l, k) float64, the distances from each.
     """
-    way = np.linalg.norm(position[pairs[:, 0]] - position[pairs[:, 1]], axis=1)
+    way = distances_between(position, *pairs.T)
     way = np.maximum(way, 1e-9 * max(way.max(initial=0.0), 1e-12))
     ways = symmetric_matrix(pairs, way, len(position))
     landmarks = [first_largest((position**2).sum(axis=1))]

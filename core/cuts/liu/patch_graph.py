@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import place_among, renumbered
-from ...arrays.vectors import middles_of_each
+from ...arrays.vectors import distances_between, middles_of_each
 from ...mesh.labels import label_boundaries
 from ...mesh.triangles import TriMesh
 from ...surface.curvature import curvature_across
@@ -57,7 +57,7 @@ class PatchGraph:
         crease = label_boundaries(label, mesh.edges.pairs, mesh.pair_length * concave)[1]
         length = length + 1e-9 * unit
         a, b = pairs.T
-        way = np.linalg.norm(center[a] - center[b], axis=1) / unit
+        way = distances_between(center, a, b) / unit
         return cls(area / area.sum(), pairs, length / unit, np.maximum(way, 1e-6), crease / length), label
 
     def within(self, chosen: np.ndarray) -> PatchGraph:

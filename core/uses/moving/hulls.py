@@ -15,7 +15,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ...arrays.components import components
 from ...arrays.indexing import renumbered, rounded_order, stable_order
 from ...arrays.pairs import distinct_pairs
-from ...arrays.vectors import cross, inner_products, lengths, middles_of_each, second_moments
+from ...arrays.vectors import cross, distances_between, inner_products, middles_of_each, second_moments
 from ...mesh.corners import CornerTable
 from ...surface.ordering import principal_axes
 
@@ -139,7 +139,7 @@ def _closed(table: CornerTable, labels: np.ndarray) -> tuple[_Surface, np.ndarra
     first, second = distinct_pairs(np.tile(rim_part, 2), np.append(start, end))[1].reshape(2, -1)
     count, loop = components(int(max(first.max(), second.max())) + 1, first, second)
     loop = loop[first]
-    length = lengths(table.vertices[end] - table.vertices[start]) + np.finfo(float).tiny
+    length = distances_between(table.vertices, end, start) + np.finfo(float).tiny
     _, middle = middles_of_each(loop, 0.5 * (table.vertices[start] + table.vertices[end]), length, count)
     fans = np.stack([start, end, len(table.vertices) + loop], axis=1)
     surface = _Surface(np.concatenate([table.vertices, middle]), np.concatenate([triangles, fans]))
