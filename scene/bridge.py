@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.arrays.vectors import cross, lengths
 from ..core.mesh.corners import CornerTable
-from ..core.mesh.labels import FaceGraph
+from ..core.mesh.face_graph import FaceGraph
 from ..core.mesh.polygons import MIN_FACES
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished

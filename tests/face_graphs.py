@@ -4,7 +4,7 @@
 import numpy as np
 
 from core.arrays.components import components
-from core.mesh.labels import FaceGraph, fill_unlabeled
+from core.mesh.face_graph import FaceGraph, fill_unlabeled
 from core.mesh.triangles import TriMesh
 
 
@@ -17,8 +17,7 @@ def path(n, lengths=None, areas=None):
 
 def graph_of(shape):
     """The faces of a shape."""
-    mesh = TriMesh(*shape)
-    return FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.edge_length[mesh.edges.pair_edge], mesh.face_area)
+    return FaceGraph.of(TriMesh(*shape))
 
 
 def boundary_length(graph, label):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.labels import FaceGraph
+from ..mesh.face_graph import FaceGraph
 from .hierarchy import Hierarchy
 
 

@@ -16,7 +16,8 @@ from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, renumbered
 from ..arrays.pairs import both_ways
 from ..arrays.ties import on_grid
-from ..mesh.labels import FaceGraph, majority, spread
+from ..mesh.face_graph import FaceGraph
+from ..mesh.labels import majority, spread
 from .face_candidates import FaceCandidates
 from .hierarchy import LAST, Hierarchy
 from .joining.linkage import JudgedPairs, average_linkage

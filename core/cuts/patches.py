@@ -18,7 +18,8 @@ from ..arrays.nearest_seeds import nearest_seeds
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.ties import first_largest, rounded, whole_steps
 from ..arrays.vectors import row_products, weighted_sum
-from ..mesh.labels import FaceGraph, label_boundaries, longest_neighbor
+from ..mesh.face_graph import FaceGraph
+from ..mesh.labels import label_boundaries, longest_neighbor
 from ..mesh.triangles import TriMesh
 
 if TYPE_CHECKING:

@@ -18,5 +18,6 @@ How polygons hang together:
 
 What lies on them:
 
-- ``labels``: labels on faces: votes, boundaries, connected labels, and the graph of faces across edges
+- ``labels``: labels on faces: votes, boundaries, how far two labelings disagree
+- ``face_graph``: the graph of faces across edges, and labels on it filled in, made connected, straightened
 """

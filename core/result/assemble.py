@@ -21,7 +21,8 @@ from ..cuts.symmetric.method import symmetric_candidates, turned_candidates
 from ..cuts.symmetric.regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
-from ..mesh.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
+from ..mesh.face_graph import FaceGraph, connect, fill_unlabeled, straighten
+from ..mesh.labels import majority
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import LEAST_WEIGHT
 from ..parameters import TOGETHER, Parameters

@@ -8,7 +8,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.nearest import nearest_larger, nearest_to_middle
 from ..arrays.vectors import middles_of_each
-from ..mesh.labels import FaceGraph
+from ..mesh.face_graph import FaceGraph
 from ..surface.preparation import WorkingMesh
 from .component_results import ComponentResult
 

@@ -18,7 +18,8 @@ from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
 from ..mesh.arguments import whole_numbers
 from ..mesh.copies import Copies
-from ..mesh.labels import FaceGraph, majority
+from ..mesh.face_graph import FaceGraph
+from ..mesh.labels import majority
 from ..parameters import Parameters
 from ..sentence import Sentence
 from ..surface.ordering import Ordering

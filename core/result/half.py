@@ -10,7 +10,8 @@ import numpy as np
 
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.settling import settle
-from ..mesh.labels import connect, majority
+from ..mesh.face_graph import connect
+from ..mesh.labels import majority
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import vote_weights
 from ..sentence import Sentence

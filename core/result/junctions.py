@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays.indexing import expanded, sums_by
 from ..arrays.pairs import distinct_pairs
-from ..mesh.labels import FaceGraph
+from ..mesh.face_graph import FaceGraph
 
 
 def boundaries(

@@ -16,7 +16,7 @@ from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
 from ..cuts.symmetric.regions import symmetric_on_regions
-from ..mesh.labels import FaceGraph, connect
+from ..mesh.face_graph import FaceGraph, connect
 from ..mesh.triangles import TriMesh, vote_weights
 from ..symmetry.images import Images
 from ..symmetry.mirrors import Mirror

@@ -15,7 +15,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.arrays.components import components
-from ...core.mesh.labels import FaceGraph
+from ...core.mesh.face_graph import FaceGraph
 from ...core.result.parts import Parts
 from ..errors import SceneError
 from ..result import part_names

@@ -12,7 +12,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.mesh.corners import CornerTable
-from ...core.mesh.labels import FaceGraph
+from ...core.mesh.face_graph import FaceGraph
 from ...core.result.decomposition import Decomposition
 from ...core.sentence import Count
 from .. import bridge, property_updates, store, transaction

@@ -10,7 +10,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.mesh.corners import CornerTable
-from ...core.mesh.labels import FaceGraph
+from ...core.mesh.face_graph import FaceGraph
 from ...core.sentence import Count
 from ...core.steps import Steps, stretched
 from ...scene import bridge, store
@@ -89,7 +89,7 @@ class Knife:
     def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
 
-        face_graph : core.mesh.labels.FaceGraph
+        face_graph : core.mesh.face_graph.FaceGraph
         """
         from ...core.result.editing.changes import smaller_side, two_sides
         from ...core.result.editing.contour_cut import contour_sides

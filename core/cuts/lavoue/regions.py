@@ -12,7 +12,8 @@ from ...arrays.indexing import sums_by
 from ...arrays.nearest_seeds import nearest_seeds
 from ...arrays.pairs import pair_keys, symmetric_matrix
 from ...arrays.ties import rounded, whole_steps
-from ...mesh.labels import FaceGraph, label_boundaries
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import label_boundaries
 from ...mesh.triangles import TriMesh
 
 # Share of the area below which a region is a sliver; what parts it from its neighbors counts by the weight only.

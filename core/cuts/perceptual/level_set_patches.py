@@ -6,7 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from ...mesh.labels import FaceGraph, majority
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import majority
 from ..patches import SMALLEST, absorb_small
 
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``

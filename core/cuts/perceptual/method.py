@@ -14,7 +14,8 @@ import numpy as np
 from ...arrays.ties import in_steps
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
-from ...mesh.labels import FaceGraph, connect, fill_unlabeled, majority
+from ...mesh.face_graph import FaceGraph, connect, fill_unlabeled
+from ...mesh.labels import majority
 from ...mesh.triangles import TriMesh
 from ...parameters import Parameters
 from ...surface.coarsening import Coarsening, Pyramid, coarsen

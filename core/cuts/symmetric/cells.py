@@ -17,7 +17,8 @@ from ...arrays.components import components, roots
 from ...arrays.indexing import largest_of_each, renumbered
 from ...arrays.pairs import edge_keys
 from ...arrays.ties import rounded
-from ...mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
+from ...mesh.face_graph import FaceGraph, connect, fill_unlabeled
+from ...mesh.labels import longest_neighbor, majority
 from ...symmetry.group import SymmetryGroup
 
 # Shares of the area of the pieces that the plane mirrors. What little of a candidate is left on the leading side joins

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ...arrays.ties import rounded
-from ...mesh.labels import FaceGraph
+from ...mesh.face_graph import FaceGraph
 from ...mesh.triangles import vote_weights
 from ...symmetry.group import SymmetryGroup
 from ..hierarchy import LAST, Hierarchy

@@ -18,7 +18,8 @@ from itertools import product
 
 import numpy as np
 
-from ...mesh.labels import FaceGraph, disagreement, majority
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import disagreement, majority
 from ...symmetry.group import SymmetryGroup
 from ..face_candidates import FaceCandidates
 from .cells import make_cells

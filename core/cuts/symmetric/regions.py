@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...mesh.labels import FaceGraph, majority
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import majority
 from ..face_candidates import FaceCandidates
 from .method import symmetric_candidates
 

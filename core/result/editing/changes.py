@@ -14,7 +14,8 @@ from ...arrays.components import components
 from ...arrays.indexing import inverse, renumbered
 from ...arrays.pairs import both_ways, symmetric_matrix
 from ...cuts.hierarchy import Dendrogram
-from ...mesh.labels import FaceGraph, label_boundaries, spread
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import label_boundaries, spread
 from ..decomposition import Decomposition
 
 

@@ -15,7 +15,7 @@ from ...arrays.components import components
 from ...arrays.indexing import place_among, renumbered
 from ...arrays.vectors import middles_of_each
 from ...mesh.corners import CornerTable
-from ...mesh.labels import FaceGraph, connect, straighten
+from ...mesh.face_graph import FaceGraph, connect, straighten
 from ...parameters import Parameters
 
 STRAIGHTEN = Parameters.smoothing  # rounds of ``straighten``, as many as cuts get by default

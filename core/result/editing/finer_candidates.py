@@ -13,7 +13,8 @@ from ...arrays.vectors import row_products
 from ...cuts.hierarchy import Dendrogram, Hierarchy
 from ...graph.critical import SADDLE
 from ...mesh.corners import CornerTable
-from ...mesh.labels import FaceGraph, majority, spread
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import majority, spread
 from ...mesh.triangles import vote_weights
 from ..decomposition import Decomposition
 from ..junctions import boundaries, junctions

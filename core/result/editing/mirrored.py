@@ -11,7 +11,7 @@ import numpy as np
 
 from ...arrays.indexing import last_of_each
 from ...arrays.pairs import distinct_pairs
-from ...mesh.labels import FaceGraph, connect
+from ...mesh.face_graph import FaceGraph, connect
 from ..numbering import NumberedParts
 
 CRUMB = 0.02  # share of its part's area below which a region that the image of a change leaves alone is no part

@@ -8,7 +8,8 @@ import numpy as np
 from ...arrays.indexing import largest_of_each
 from ...arrays.pairs import both_ways
 from ...arrays.ties import TIE
-from ...mesh.labels import FaceGraph, majority
+from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import majority
 
 #: A piece goes along if it is smaller than this share of the largest that is left of its part ...
 BESIDE_LARGEST = 1 / 3

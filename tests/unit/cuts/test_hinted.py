@@ -11,7 +11,7 @@ from core.cuts import hinted
 from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import LAST, Hierarchy
 from core.cuts.hinted import hinted_candidates
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.parameters import METHODS
 
 

@@ -9,7 +9,7 @@ from face_graphs import graph_of, n_connected, patches, path
 from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.settling import settle
-from core.mesh.labels import FaceGraph, connect
+from core.mesh.face_graph import FaceGraph, connect
 
 
 def settled(graph, label, hierarchy):

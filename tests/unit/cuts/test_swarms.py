@@ -7,7 +7,7 @@ import pytest
 from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import LAST, Hierarchy
 from core.cuts.swarms import ALIKE, LEAST, NEAR, SALIENCE, SHAPE, SMALL, THIN, find_swarms, joined_swarms
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.mesh.triangles import TriMesh
 
 BODY = 1.0 / SMALL  # area of a piece beside which what has an area of 1 is just small enough

@@ -12,7 +12,7 @@ import shapes
 from core.cuts.hierarchy import Hierarchy
 from core.errors import ParameterError, ReebError
 from core.graph.reeb import ReebGraph
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
 from core.pipeline import decompose

@@ -8,7 +8,7 @@ import pytest
 import shapes
 
 from core.mesh.corners import CornerTable
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.parameters import PRESETS, Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition

@@ -8,7 +8,7 @@ import shapes
 from core import TriMesh, decompose
 from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.result.slivers import SHARD, TINY, without_slivers
 
 

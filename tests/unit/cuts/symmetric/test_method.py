@@ -10,7 +10,7 @@ from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.symmetric.method import symmetric_candidates
 from core.cuts.symmetric.regions import symmetric_on_regions
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.metrics import rand_index_error
 from core.result import assemble
 

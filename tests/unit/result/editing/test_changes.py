@@ -7,7 +7,7 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.result.editing.changes import (
     best_split,
     boundary_distance,

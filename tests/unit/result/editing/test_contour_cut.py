@@ -8,7 +8,7 @@ from face_graphs import graph_of
 
 from core.arrays.components import components
 from core.mesh.corners import CornerTable
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.result.editing.contour_cut import Contours, contour_sides, contours
 
 

@@ -13,7 +13,7 @@ from core.cuts.hierarchy import Hierarchy
 from core.graph.critical import MAXIMUM
 from core.graph.reeb import ReebGraph
 from core.mesh.corners import CornerTable
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.result.decomposition import Decomposition
 from core.result.editing.finer_candidates import pieces_cut_off, split_around, split_candidates
 

@@ -6,7 +6,7 @@ from itertools import count
 import numpy as np
 import pytest
 
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.result.editing.mirrored import MirroredChange, cleaned, gathered, on_both_sides, without_crumbs
 
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from face_graphs import graph_of, n_connected, patches, path
 
-from core.mesh.labels import FaceGraph
+from core.mesh.face_graph import FaceGraph
 from core.result.editing.remainders import halved_between_images, with_small_pieces
 
 
