@@ -12,10 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays.components import components
 from ..arrays.indexing import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
 from .polygons import MIN_FACES, PolygonMesh
-from .triangles import TriMesh
+from .triangles import TriMesh, vertex_components
 
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
@@ -133,9 +132,9 @@ def _mostly_copied(given: PolygonMesh, place: np.ndarray, is_copied: np.ndarray)
     """
     mesh = given.triangles
     _, vertex = np.unique(place, return_inverse=True)
-    a, b, c = vertex.reshape(-1)[mesh.faces].T
-    count, piece = components(int(vertex.max()) + 1, np.concatenate([a, b]), np.concatenate([b, c]))
-    of_triangle = piece[a]
+    faces = vertex.reshape(-1)[mesh.faces]
+    count, piece = vertex_components(faces, int(vertex.max()) + 1)
+    of_triangle = piece[faces[:, 0]]
     copied = np.bincount(of_triangle, mesh.face_area * is_copied[given.polygon], count)
     mostly = copied > MOST * np.bincount(of_triangle, mesh.face_area, count)
     of_polygon = np.zeros(given.n_polygons, bool)

@@ -99,6 +99,16 @@ def corner_sides(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray,
     return ends, taken(points, ends[:, 0]) - corner, taken(points, ends[:, 1]) - corner
 
 
+def vertex_components(faces: np.ndarray, n_vertices: int) -> tuple[int, np.ndarray]:
+    """Find the connected components of vertices, those of a face being joined.
+
+    faces : (m, 3) of int, 0..n_vertices-1. Returns their number and the component of each vertex, (n_vertices,) int64,
+    from 0; a vertex of no face is one of its own.
+    """
+    a, b, c = faces.T
+    return components(n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
+
+
 @dataclass(frozen=True, eq=False)
 class TriMesh:
     """A triangle mesh, checked when it is made and never changed; tables are computed when first asked for.

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays.components import components
 from ...arrays.indexing import renumbered
 from ...arrays.pairs import edge_keys, pair_keys
+from ...mesh.triangles import vertex_components
 from .rims import walk_round
 
 
@@ -69,7 +69,7 @@ def sleeve(n: int, triangles: np.ndarray, labels: np.ndarray, curve: np.ndarray,
     other = index[alone & ~is_rim]
     end = _closed(start[other], stop[other])
     used, place = renumbered(chosen)
-    pieces = components(len(used), place.ravel(), np.roll(place, -1, axis=1).ravel())[0]
+    pieces, _ = vertex_components(place, len(used))
     euler = len(used) - len(key) + len(chosen)
     if end is None or pieces > 1 or euler != (0 if len(end) else 1) or np.isin(end, curve).any():
         return None

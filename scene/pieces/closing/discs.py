@@ -11,10 +11,10 @@ import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array
 
-from ....core.arrays.components import components
 from ....core.arrays.indexing import ranges
+from ....core.arrays.pairs import edge_keys
 from ....core.arrays.vectors import cross, cross_in_plane
-from ....core.mesh.triangles import EdgeTable
+from ....core.mesh.triangles import EdgeTable, vertex_components
 from ....core.uses.caps.rims import is_inside
 from ....core.uses.caps.sleeves import Sleeve, sleeve
 from ....core.uses.caps.surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
@@ -236,14 +236,14 @@ class Discs:
     @cached_property
     def _outwards(self) -> tuple[np.ndarray, np.ndarray]:
         """The loose piece that each vertex is in, (n,) int64, and which pieces are closed and look outwards, bool."""
-        a, b, c = self._triangles.T
-        count, component = components(len(self._points), np.concatenate([a, b]), np.concatenate([b, c]))
+        n, (a, b, c) = len(self._points), self._triangles.T
+        count, component = vertex_components(self._triangles, n)
         own = component[a]
         p, q, r = ((self._points - self._points.mean(axis=0))[index] for index in (a, b, c))
         volume = np.bincount(own, (p * cross(q, r)).sum(axis=1), count)
-        ends = np.sort(self._triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
-        _, index, times = np.unique(ends @ [len(self._points), 1], return_index=True, return_counts=True)
-        is_open = np.bincount(component[ends[index[times != 2], 0]], minlength=count) > 0
+        start, end = self._triangles.ravel(), np.roll(self._triangles, -1, axis=1).ravel()
+        _, index, times = np.unique(edge_keys(start, end, count=n), return_index=True, return_counts=True)
+        is_open = np.bincount(component[start[index[times != 2]]], minlength=count) > 0
         return component, (volume > 0) & ~is_open
 
     def around(self, curve: np.ndarray, places: np.ndarray, margin: float) -> BodySurface | None:
