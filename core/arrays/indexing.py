@@ -94,8 +94,7 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
         return _packed_order(keys, width)
     first = keys >> further
     order = _packed_order(first, width - further)
-    begins = begins_run(first[order])
-    tied = np.flatnonzero(~begins | ~np.append(begins[1:], True))
+    tied = places_of_ties(first[order])
     some = order[tied]
     order[tied] = some[_packed_order(keys[some], width)]
     return order
@@ -130,6 +129,18 @@ def begins_run(values: np.ndarray) -> np.ndarray:
     begins = np.ones(len(values), bool)
     np.not_equal(values[1:], values[:-1], out=begins[1:])
     return begins
+
+
+def ends_run(values: np.ndarray) -> np.ndarray:
+    """Whether each of some values, (n,), is another than the one after, (n,) bool; true for the last."""
+    ends = np.ones(len(values), bool)
+    np.not_equal(values[1:], values[:-1], out=ends[:-1])
+    return ends
+
+
+def places_of_ties(values: np.ndarray) -> np.ndarray:
+    """Where values, (n,), are equal to the one before or the one after: (k,) int64, rising."""
+    return np.flatnonzero(~(begins_run(values) & ends_run(values)))
 
 
 def run_starts(values: np.ndarray) -> np.ndarray:

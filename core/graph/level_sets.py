@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import expanded, sums_by
+from ..arrays.indexing import begins_run, ends_run, expanded, sums_by
 from ..arrays.vectors import lengths
 from ..mesh.triangles import TriMesh, vote_weights
 from .bridged_levels import FaceBridges, joined_by_faces
@@ -105,14 +105,13 @@ class LevelSets:
         """(E,) float64, exact area of each element, in squared units of the vertices."""
         below = np.zeros(len(self.element_face))  # share of the face below the element's top
         top = np.append(self.levels, np.inf)[self.element_slab]
-        last = np.append(self.element_face[1:] != self.element_face[:-1], True)
+        last = ends_run(self.element_face)
         below[last] = 1.0
         inner = ~last
         corners = np.sort(self.values[self.mesh.faces], axis=1).T
         low, middle, high = (corner.take(self.element_face[inner]) for corner in corners)
         below[inner] = _share_below(low, middle, high, top[inner])
-        first = np.append(True, last[:-1])
-        share = below - np.where(first, 0.0, np.append(0.0, below[:-1]))
+        share = below - np.where(begins_run(self.element_face), 0.0, np.append(0.0, below[:-1]))
         return np.maximum(share, 0.0) * self.mesh.face_area[self.element_face]
 
     @property

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays.indexing import begins_run, renumbered, stable_order, sums_by
+from ..arrays.indexing import begins_run, ends_run, renumbered, stable_order, sums_by
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import cross, lengths
 from .borders import joined_borders
@@ -146,7 +146,7 @@ class CornerTable:
         """
         new = begins_run(self.corner_face)
         start = np.flatnonzero(new)[np.cumsum(new) - 1]
-        middle = np.flatnonzero(~new & ~np.append(new[1:], True)[: len(new)])
+        middle = np.flatnonzero(~new & ~ends_run(self.corner_face))
         corners = np.stack([start[middle], middle, middle + 1], axis=1)
         return self.corner_vertex[corners], self.corner_face[middle]
 
@@ -191,9 +191,8 @@ class CornerTable:
 
 def next_of_owner(owner: np.ndarray) -> np.ndarray:
     """Index of the next element of the same owner, in a circle, (c,) int64; the elements of an owner are in a row."""
-    new = begins_run(owner)
-    following = np.arange(1, len(new) + 1)
-    following[np.append(new[1:], True)[: len(new)]] = np.flatnonzero(new)
+    following = np.arange(1, len(owner) + 1)
+    following[ends_run(owner)] = np.flatnonzero(begins_run(owner))
     return following
 
 

@@ -14,12 +14,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays.components import components
-from ..arrays.indexing import bounds_of_each, frozen, hashed_rows, inverse, renumbered, stable_order, sums_by, taken
+from ..arrays.indexing import (
+    bounds_of_each,
+    frozen,
+    hashed_rows,
+    inverse,
+    places_of_ties,
+    renumbered,
+    stable_order,
+    sums_by,
+    taken,
+)
 from ..arrays.ties import DENSE, TIE, ranks
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
-from ..mesh.triangles import TriMesh, of_corners
+from ..mesh.triangles import TriMesh, of_corners, vertex_components
 from .diagonals import divided_by_shape, outer_first
 
 # The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
@@ -178,14 +187,14 @@ def _with_split_vertices(ordering: Ordering, place: np.ndarray, given: PolygonMe
 def _by_place(mesh: TriMesh, of_triangle: np.ndarray, n_polygons: int, together: bool) -> Ordering:
     """What ``sorted_by_place`` finds, of a mesh with one vertex at each place; of_triangle : (m,), the polygons."""
     ordering = Ordering.of(mesh, of_triangle, n_polygons)
-    a, b, c = mesh.faces.T
-    count, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
-    size = np.bincount(piece[a])
+    count, piece = vertex_components(mesh.faces, mesh.n_vertices)
+    of_face = piece[mesh.faces[:, 0]]
+    size = np.bincount(of_face)
     in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
     beside = _beside_another(mesh.vertices, piece, count, large) if together else np.zeros(len(large), bool)
     for chosen, by_whole in zip(large.tolist(), beside.tolist(), strict=True):
-        faces = np.flatnonzero(piece[a] == chosen)
+        faces = np.flatnonzero(of_face == chosen)
         part, index = mesh.submesh(faces)
         names, polygon = renumbered(of_triangle[faces])
         rank = (in_whole if by_whole else in_given)[index]
@@ -331,8 +340,7 @@ def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:
     cells = CELLS if len(place) <= DENSE else SMALL_CELLS
     cell = _cell(place, cells)
     order = stable_order(cell)
-    equal = cell[order[1:]] == cell[order[:-1]]
-    tied = np.flatnonzero(np.append(equal, False) | np.append(False, equal))
+    tied = places_of_ties(cell[order])
     if len(tied):
         some = order[tied]
         x, y, z = (ranks(values, 1.0)[some] for values in place.T)

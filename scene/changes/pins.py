@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ...core.arrays.indexing import ends_run
 from .. import property_updates, store
 from ..errors import SceneError
 from ..result import part_names
@@ -123,8 +124,7 @@ def renumber_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, n
     there = np.flatnonzero(former >= 0)
     fragment, place = np.unique(np.stack([former, piece])[:, there], axis=1, return_inverse=True)
     order = np.lexsort((np.bincount(place.ravel(), area[there], fragment.shape[1]), fragment[0]))
-    last = np.append(fragment[0, order][1:] != fragment[0, order][:-1], True)[: len(order)]
-    stays = {0, *fragment[1, order[last]].tolist()}
+    stays = {0, *fragment[1, order[ends_run(fragment[0, order])]].tolist()}
     made = set()
     for index in sorted({*range(piece.max() + 1)} - stays):
         new = free_number(mesh, stored, numbers.tolist())

@@ -8,6 +8,7 @@ import pytest
 
 from core.arrays.indexing import (
     bounds_of_each,
+    ends_run,
     expanded,
     first_of_rows,
     hashed_sets,
@@ -15,6 +16,7 @@ from core.arrays.indexing import (
     largest_of_each,
     last_of_each,
     place_among,
+    places_of_ties,
     ranges,
     renumbered,
     rounded_order,
@@ -43,6 +45,14 @@ def test_ranges_are_listed_one_after_the_other():
 @pytest.mark.parametrize(("values", "starts"), [([], []), ([4], [0]), ([2, 2, 0, 0, 0, 2, 5], [0, 2, 5, 6])])
 def test_runs_begin_where_the_value_is_another(values, starts):
     assert run_starts(np.array(values, np.uint8)).tolist() == starts
+    ends = np.flatnonzero(ends_run(np.array(values, np.uint8))) + 1
+    assert [0, *ends][: len(starts)] == starts
+    assert len(ends) == len(starts)
+
+
+def test_ties_are_beside_each_other():
+    assert places_of_ties(np.array([2, 2, 0, 2, 5, 5, 5])).tolist() == [0, 1, 4, 5, 6]
+    assert not len(places_of_ties(np.empty(0)))
 
 
 def test_what_is_not_chosen_has_no_place():
