@@ -23,7 +23,7 @@ MAX_WORTH = 0.3
 
 
 def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    """List the points at which a contour crosses edges of the mesh, in order along the contour.
+    """List the edges of the mesh that a contour crosses, in order along the contour.
 
     Parameters
     ----------
@@ -34,9 +34,8 @@ def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray
     Returns
     -------
     edge : (c,) int64
-        Edges of the mesh that the contour crosses.
-    points : (c, 3) float64
-        Position of each crossing, in units of the vertices.
+    share : (c,) float64
+        Where the contour crosses each of them, 0..1 from the first vertex of the edge.
     closed : bool
         Whether the contour is a closed curve; False if it ends at borders of the surface.
     """
@@ -52,9 +51,16 @@ def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray
     start = int(np.where(main, degree, degree.max() + 1).argmin())
     order = depth_first_order(graph, start, directed=False, return_predecessors=False)
     edge = edge[order]
-    share = sets.crossing(edge, np.full(len(edge), sets.contour_level[contour]))[:, None]
-    low, high = (sets.mesh.vertices[sets.mesh.edges.vertices[edge, k]] for k in (0, 1))
-    return edge, low + share * (high - low), bool(degree[main].min() >= 2)
+    return edge, sets.crossing(edge, sets.contour_level[contour]), bool(degree[main].min() >= 2)
+
+
+def at_crossings(values: np.ndarray, ends: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Values at points of edges, (c,) or (c, k), from those at the vertices, (n,) or (n, k).
+
+    ends : (c, 2) int64, of the edges. share : (c,) float64, where on the edges, from the first end.
+    """
+    low, high = (values[end] for end in ends.T)
+    return low + (share * (high - low).T).T
 
 
 def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) -> float:
@@ -81,10 +87,9 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
         In units of the range of the field, at least -MAX_WORTH; negative where the contour passes a concavity. 0 for
         a contour without length.
     """
-    edge, points, closed = contour_curve(sets, contour)
-    share = sets.crossing(edge, np.full(len(edge), sets.contour_level[contour]))
-    low, high = (k_min[sets.mesh.edges.vertices[edge, k]] for k in (0, 1))
-    along = low + share * (high - low)
+    edge, share, closed = contour_curve(sets, contour)
+    points, along = (at_crossings(values, sets.mesh.edges.vertices[edge], share)
+                     for values in (sets.mesh.vertices, k_min))
     if closed:
         points, along = np.concatenate([points, points[:1]]), np.append(along, along[0])
     arc_length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))

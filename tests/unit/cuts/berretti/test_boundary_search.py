@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.arrays.components import components
-from core.cuts.berretti.boundary_search import concavity, contour_curve, search_boundaries
+from core.cuts.berretti.boundary_search import at_crossings, concavity, contour_curve, search_boundaries
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.mesh.triangles import TriMesh
@@ -39,7 +39,8 @@ def test_closed_curves_pass_every_crossing_once(make):
     sets = upright(make(), 13)
     edges = sets.mesh.edges.vertices
     for contour in range(sets.n_contours):
-        edge, points, closed = contour_curve(sets, contour)
+        edge, share, closed = contour_curve(sets, contour)
+        points = at_crossings(sets.mesh.vertices, edges[edge], share)
         segments = sets.segment_contour == contour
         assert closed
         assert len(edge) == len(set(edge.tolist())) == segments.sum()
@@ -57,7 +58,8 @@ def test_closed_curves_pass_every_crossing_once(make):
 def test_open_curves_run_from_border_to_border():
     vertices, faces = shapes.flat_grid(6, 9)
     sets = cut_at_levels(TriMesh(vertices, faces), vertices[:, 0], np.array([2.5]))
-    _, points, closed = contour_curve(sets, 0)
+    edge, share, closed = contour_curve(sets, 0)
+    points = at_crossings(vertices, sets.mesh.edges.vertices[edge], share)
     assert not closed
     y = points[:, 1]
     assert (np.diff(y) > 0).all() or (np.diff(y) < 0).all()
