@@ -32,7 +32,7 @@ from ..symmetry.mirrors import Mirror
 from .bodies import contacts_and_links
 from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
-from .junctions import boundaries, junctions
+from .junctions import FaceSides, boundaries, junctions
 from .slivers import without_slivers
 from .votes import WIDTH, FaceVotes
 from .within_faces import symmetric_within_faces
@@ -156,13 +156,14 @@ def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidat
     tables : CandidateTables
     """
     graph, label = candidates.touching_graph(), candidates.label
-    sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
-    pairs, length = boundaries(graph, label, *sides, working.mesh.edge_length)
+    mesh = working.mesh
+    sides = FaceSides(np.repeat(working.polygon, 3), mesh.edges.face_edges.ravel(), mesh.edge_length)
+    pairs, length = boundaries(graph, label, sides)
     corners = given.triangles.faces.ravel()
     weight = np.repeat(given.triangles.face_weight, 3)
     vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
     return CandidateTables(label, vertex, np.bincount(label, graph.area), pairs, length,
-                           *junctions(label, *sides, working.mesh.edge_length))
+                           *junctions(label, sides))
 
 
 def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:

@@ -12,16 +12,46 @@ therefore kept as *junctions*.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 
-from ..arrays.indexing import expanded, sums_by
+from ..arrays.indexing import expanded, stable_order, sums_by
 from ..arrays.pairs import distinct_pairs
 from ..mesh.face_graph import FaceGraph
 
 
-def boundaries(
-    graph: FaceGraph, label: np.ndarray, face: np.ndarray, edge: np.ndarray, edge_length: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+@dataclass(frozen=True, eq=False)
+class FaceSides:
+    """The sides of faces, and the edges along which they lie.
+
+    Attributes
+    ----------
+    face, edge : (s,) int64
+        Face and edge of each side.
+    edge_length : (e,) float64
+    """
+
+    face: np.ndarray
+    edge: np.ndarray
+    edge_length: np.ndarray
+
+    @cached_property
+    def fans(self) -> np.ndarray:
+        """(k,) int64, the sides at edges of more than two faces: edge by edge, in their own order."""
+        meeting = np.bincount(self.edge)
+        if meeting.max(initial=0) <= 2:
+            return np.empty(0, np.int64)
+        several = np.flatnonzero(meeting[self.edge] > 2)
+        return several[stable_order(self.edge[several])]
+
+    def around_fans(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Edge and label of each of the ``fans``, (k,) int64 twice. label : (n_faces,) int64."""
+        return self.edge[self.fans], label[self.face[self.fans]]
+
+
+def boundaries(graph: FaceGraph, label: np.ndarray, sides: FaceSides) -> tuple[np.ndarray, np.ndarray]:
     """Find which labels touch, and along what length, also where more than two faces meet.
 
     Parameters
@@ -30,33 +60,29 @@ def boundaries(
         Which faces touch; it chains those that meet at an edge in the order of their sides.
     label : (n_faces,) int64
         0 or more.
-    face, edge : (s,) int64
-        Face and edge of each side of a face.
-    edge_length : (e,) float64
+    sides : FaceSides
 
     Returns
     -------
     touching : (c, 2) int64
         Pairs of labels that touch, the smaller label first, in lexicographic order.
     total : (c,) float64
-        Length of the boundary between the two labels, each edge once, in the unit of ``edge_length``.
+        Length of the boundary between the two labels, each edge once, in the unit of ``sides.edge_length``.
     """
     touching, total = graph.boundaries(label)
-    among, where, times = _miscounted(*_around_fans(label, face, edge))
+    among, where, times = _miscounted(*sides.around_fans(label))
     if not len(among):
         return touching, total
     pairs, pair = distinct_pairs(*np.concatenate([touching, among]).T)
-    return pairs, sums_by(pair, np.concatenate([total, times * edge_length[where]]), len(pairs))
+    return pairs, sums_by(pair, np.concatenate([total, times * sides.edge_length[where]]), len(pairs))
 
 
-def junctions(
-    label: np.ndarray, face: np.ndarray, edge: np.ndarray, edge_length: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def junctions(label: np.ndarray, sides: FaceSides) -> tuple[np.ndarray, np.ndarray]:
     """Find the sets of three labels and more that meet at edges.
 
     Parameters
     ----------
-    label, face, edge, edge_length
+    label, sides
         As of ``boundaries``.
 
     Returns
@@ -66,14 +92,14 @@ def junctions(
     length : (j,) float64
         Of all edges at which just these labels meet.
     """
-    rows, _ = distinct_pairs(*_around_fans(label, face, edge))  # an edge and a label there
+    rows, _ = distinct_pairs(*sides.around_fans(label))  # an edge and a label there
     size = np.bincount(rows[:, 0])[rows[:, 0]]
     members, length, count = [np.empty((0, 2), np.int64)], [np.empty(0)], 0
     for n in np.unique(size[size > 2]).tolist():
         own = rows[size == n].reshape(-1, n, 2)
         sets, which = np.unique(own[:, :, 1], axis=0, return_inverse=True)
         members.append(np.stack([np.repeat(count + np.arange(len(sets)), n), sets.ravel()], axis=1))
-        length.append(sums_by(which.reshape(-1), edge_length[own[:, 0, 0]], len(sets)))
+        length.append(sums_by(which.reshape(-1), sides.edge_length[own[:, 0, 0]], len(sets)))
         count += len(sets)
     return np.concatenate(members), np.concatenate(length)
 
@@ -102,20 +128,11 @@ def counted_again(members: np.ndarray, length: np.ndarray, group: np.ndarray) ->
     return np.stack([rows[first, 1], rows[second, 1]], axis=1), times * length[rows[first, 0]]
 
 
-def _around_fans(label: np.ndarray, face: np.ndarray, edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Edge and label of each side at edges of more than two faces, (k,): edge by edge, in the order of the sides."""
-    meeting = np.bincount(edge)
-    if meeting.max(initial=0) <= 2:
-        return np.empty(0, np.int64), np.empty(0, np.int64)
-    several = np.flatnonzero(meeting[edge] > 2)
-    several = several[np.argsort(edge[several], kind="stable")]
-    return edge[several], label[face[several]]
-
-
 def _miscounted(at: np.ndarray, name: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pairs of labels at one edge, (k, 2), smaller first, whose faces follow each other there not once; and the edges.
+    """Pairs of labels that meet at an edge of several faces, where the chain of these faces has the pair not just once.
 
-    at, name : as ``_around_fans`` returns them. The last is how often the edge has to be added, (k,): 1 or less than 0.
+    at, name : as ``FaceSides.around_fans`` returns them. Returns the pairs, (k, 2), smaller label first; the edge of
+    each, (k,); and how often that edge is to be added to their boundary, (k,): 1, or less than 0.
     """
     follows = at[1:] == at[:-1]
     low, high = np.sort(np.stack([name[:-1], name[1:]], axis=1)[follows], axis=1).T

@@ -17,7 +17,7 @@ from ...mesh.face_graph import FaceGraph
 from ...mesh.labels import majority, spread
 from ...mesh.triangles import vote_weights
 from ..decomposition import Decomposition
-from ..junctions import boundaries, junctions
+from ..junctions import FaceSides, boundaries, junctions
 from .contour_cut import contours
 
 SCRAP = 0.03  # share of a part below which a candidate of it is a scrap beside a pinned part
@@ -162,9 +162,9 @@ def split_candidates(
     half[cut] = decomposition.n_candidates + np.arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    sides = table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges)))
-    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, *sides)
-    members, at_junction = junctions(candidates, *sides)
+    sides = FaceSides(table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges))))
+    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, sides)
+    members, at_junction = junctions(candidates, sides)
     area = np.bincount(candidates, graph.area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy

@@ -13,7 +13,7 @@ from core.parameters import PRESETS, Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
 from core.result.editing.finer_candidates import split_candidates
-from core.result.junctions import boundaries, counted_again, junctions
+from core.result.junctions import FaceSides, boundaries, counted_again, junctions
 
 
 def book(n_pages, n=8):
@@ -32,19 +32,19 @@ def book(n_pages, n=8):
 
 
 def sides(faces, vertices):
-    """The faces as a face graph, the face and the edge of each side, and the lengths of the edges."""
+    """The faces as a face graph, and their sides."""
     table = CornerTable.of(vertices, faces)
     pairs, edge = table.face_pairs()
     graph = FaceGraph(len(faces), pairs, table.edge_length(edge), np.ones(len(faces)))
-    return graph, table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges)))
+    return graph, FaceSides(table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges))))
 
 
 @pytest.mark.parametrize("n_pages", [2, 3, 4, 7])
 def test_every_page_touches_every_other_along_the_spine(n_pages):
     vertices, faces = book(n_pages)
     label = np.repeat(np.arange(n_pages), len(faces) // n_pages)
-    graph, *rest = sides(faces, vertices)
-    touching, length = boundaries(graph, label, *rest)
+    graph, of_faces = sides(faces, vertices)
+    touching, length = boundaries(graph, label, of_faces)
     assert [tuple(pair) for pair in touching.tolist()] == list(combinations(range(n_pages), 2))
     assert length == pytest.approx(np.ones(len(touching)))
 
@@ -74,8 +74,8 @@ def cut_lengths(parts):
 def test_labels_that_take_turns_around_an_edge_meet_there_once():
     vertices, faces = book(4)
     label = np.repeat([0, 1, 0, 1], len(faces) // 4)
-    graph, *rest = sides(faces, vertices)
-    touching, length = boundaries(graph, label, *rest)
+    graph, of_faces = sides(faces, vertices)
+    touching, length = boundaries(graph, label, of_faces)
     assert touching.tolist() == [[0, 1]]
     assert length == pytest.approx([1.0])
 
@@ -86,14 +86,14 @@ def test_boundaries_have_each_edge_once_also_after_labels_became_one(n_labels, s
     vertices, faces = book(5)
     random = np.random.default_rng(seed)
     label = random.integers(n_labels, size=len(faces))
-    graph, *rest = sides(faces, vertices)
-    touching, length = boundaries(graph, label, *rest)
+    graph, of_faces = sides(faces, vertices)
+    touching, length = boundaries(graph, label, of_faces)
     assert dict(zip(map(tuple, touching.tolist()), length.tolist(), strict=True)) == pytest.approx(
         edge_lengths(vertices, faces, label))
     group = random.integers(3, size=n_labels)
     low, high = np.sort(group[touching], axis=1).T
     total = {}
-    members, at_junction = junctions(label, *rest)
+    members, at_junction = junctions(label, of_faces)
     assert (at_junction > 0).all()
     for pair, part in [*zip(zip(low.tolist(), high.tolist(), strict=True), length, strict=True),
                        *((tuple(pair), -more) for pair, more in
@@ -136,7 +136,7 @@ def test_the_cuts_after_faces_were_given_to_other_parts():
     vertices, faces = book(5)
     result = decompose(vertices, faces)
     chosen = np.random.default_rng(0).random(len(faces)) < 0.3
-    graph, *_ = sides(faces, vertices)
+    graph, _ = sides(faces, vertices)
     finer = split_candidates(result, chosen, graph, CornerTable.of(vertices, faces))
     assert finer.n_candidates > result.n_candidates
     assert [tuple(pair) for pair in finer.candidate_pairs.tolist()] == touching_pairs(faces, finer.candidates)
