@@ -46,6 +46,8 @@ PALETTES = {
     "Bright": _KELLY,
 }
 
+CLEAR = 0.25  # difference of two colors, see ``distance_matrix``, that is clear to the eye: more counts as much
+
 #: What the user sees in place of a name, which is that of files and scripts.
 LABELS = {"Colour-blind safe": "Color-Blind Safe"}
 
@@ -145,8 +147,7 @@ def chosen_colors(
         if wanted is not None and wanted[part] >= 0 and room[wanted[part]] > 0:
             chosen[part] = wanted[part]
         else:
-            # Differences above 0.25 are clear to the eye and count as equal.
-            rank = np.lexsort((-np.minimum(room, 0.25), used + 99 * (room == 0)))
+            rank = np.lexsort((-np.minimum(room, CLEAR), used, room == 0))
             chosen[part] = rank[0]
             if not room.any():
                 _make_room(part, around, chosen, len(palette))

@@ -40,6 +40,14 @@ def test_a_part_among_neighbors_of_all_colors_gets_one_of_its_own(n_rings):
     assert (colors[:count] != part_colors(count, ring)).any(axis=1).sum() == n_rings
 
 
+def test_no_part_has_the_color_of_one_that_touches_very_many():
+    """A body with thousands of spines: its color was that used least, and in the end spines had it, too."""
+    count = 2_000
+    colors = part_colors(count, np.stack([np.zeros(count - 1, int), np.arange(1, count)], axis=1))
+    assert (colors[1:] != colors[0]).any(axis=1).all()
+
+
+
 @pytest.mark.parametrize("name", PALETTES)
 def test_any_two_colors_of_a_palette_differ_visibly(name):
     """Colors of touching parts are never equal, see above: so they are this far apart."""
