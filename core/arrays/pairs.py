@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pairs of whole numbers: both ways, numbered, sought among others, and as a sparse matrix."""
+"""Pairs of whole numbers: both ways, numbered, sought among others, as lists, and as a sparse matrix."""
 
 from __future__ import annotations
 
@@ -19,6 +19,15 @@ def both_ways(pairs: np.ndarray) -> np.ndarray:
     pairs : (e, 2) array. Returns (2e, 2), of the dtype given.
     """
     return np.concatenate([pairs, pairs[:, ::-1]])
+
+
+def partners_of(pairs: np.ndarray, count: int) -> list[list[int]]:
+    """With which others each element is paired, in the order of the pairs; pairs : (e, 2) of int, each 0..count-1."""
+    partners: list[list[int]] = [[] for _ in range(count)]
+    for a, b in pairs.tolist():
+        partners[a].append(b)
+        partners[b].append(a)
+    return partners
 
 
 def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int) -> csr_array:

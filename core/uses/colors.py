@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.indexing import frozen
+from ..arrays.pairs import partners_of
 from ..result.numbering import NumberedParts, NumberGraph
 
 if TYPE_CHECKING:
@@ -137,10 +138,7 @@ def chosen_colors(
     apart = distance_matrix(palette)
     chosen = np.full(count, -1)
     used = np.zeros(len(palette), np.int64)
-    around = [[] for _ in range(count)]
-    for a, b in neighbors.tolist():
-        around[a].append(b)
-        around[b].append(a)
+    around = partners_of(neighbors, count)
     for part in range(count):
         beside = [chosen[other] for other in around[part] if chosen[other] >= 0]
         room = apart[beside].min(axis=0) if beside else np.ones(len(palette))

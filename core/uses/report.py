@@ -12,6 +12,7 @@ import numpy as np
 import scipy
 
 from ..arrays.indexing import bounds_of_each
+from ..arrays.pairs import partners_of
 from ..errors import ParameterError
 from ..graph.critical import KINDS
 from ..mesh.arguments import numbers as as_numbers
@@ -188,10 +189,7 @@ def _parts(
 ) -> list[dict[str, Any]]:
     """Description of each part; the arguments are those of ``report``."""
     faces = np.bincount(parts.labels, minlength=parts.count)
-    beside = [[] for _ in range(parts.count)]
-    for a, b in parts.cuts[parts.cut_touches].tolist():
-        beside[a].append(b)
-        beside[b].append(a)
+    beside = partners_of(parts.cuts[parts.cut_touches], parts.count)
     return [
         {
             "index": index,

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...arrays.pairs import partners_of
 from ...result.parts import Parts
 
 LOOSE = 10**6  # cuts from the body to a part that does not hang on it: more than a model has
@@ -28,11 +29,7 @@ class Touching:
     @cached_property
     def neighbors(self) -> list[set[int]]:
         """Parts that each part touches."""
-        found: list[set[int]] = [set() for _ in range(self.parts.count)]
-        for a, b in self.parts.cuts.tolist():
-            found[a].add(b)
-            found[b].add(a)
-        return found
+        return [set(others) for others in partners_of(self.parts.cuts, self.parts.count)]
 
     @cached_property
     def body(self) -> int:

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from core.arrays.pairs import are_among, edge_keys, pair_keys
+from core.arrays.pairs import are_among, edge_keys, pair_keys, partners_of
 
 
 def test_keys_of_pairs_are_in_the_order_of_the_pairs():
@@ -15,6 +15,10 @@ def test_keys_of_edges_are_whole_numbers_of_64_bits_whichever_end_comes_first():
     start, end = np.array([[0, 70_000], [69_999, 70_000]], np.int32)
     assert edge_keys(start, end, count=70_001).tolist() == [69_999, 70_000 * 70_001 + 70_000]
     assert np.array_equal(edge_keys(start, end, count=70_001), edge_keys(end, start, count=70_001))
+
+
+def test_partners_are_listed_in_the_order_of_the_pairs():
+    assert partners_of(np.array([(2, 0), (0, 1), (2, 3), (0, 2)]), 5) == [[2, 1, 2], [0], [0, 3, 0], [2], []]
 
 
 def test_which_pairs_are_among_others():
