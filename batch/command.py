@@ -28,8 +28,8 @@ from typing import Any, TextIO
 import bpy
 
 from ..core.errors import ParameterError, ReebError
-from ..core.file_names import NO_WORKING_FOLDER, has_working_folder, readable
-from ..core.options import FAILED, WRONG_OPTION, chosen_parameters
+from ..core.file_names import readable
+from ..core.options import FAILED, WRONG_OPTION, chosen_parameters, in_working_folder
 from ..scene import store, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_finding
@@ -58,18 +58,14 @@ def main(arguments: list[str]) -> int:
     interrupts = Interrupts()
     with _standard_output() as answer, interrupts.heard():
         try:
-            result = run(options, interrupts)
+            with in_working_folder():
+                result = run(options, interrupts)
         except Interrupted as end:
             say("Interrupted; nothing was written.")
             return end.status
         except (SceneError, ReebError) as error:
             say(str(error))
             return WRONG_OPTION if isinstance(error, ParameterError) else FAILED
-        except FileNotFoundError:
-            if has_working_folder():
-                raise
-            say(NO_WORKING_FOLDER)
-            return FAILED
         try:
             answer.write(_as_text(result))
             answer.flush()

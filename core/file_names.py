@@ -11,8 +11,6 @@ from pathlib import Path
 
 #: Names that stand for devices on Windows, whatever follows a first dot.
 DEVICES = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])\s*(\.|$)", re.IGNORECASE)
-#: What a command says where ``has_working_folder`` is false.
-NO_WORKING_FOLDER = "The folder in which the command was started is gone. Change to one that is there."
 
 
 def readable(name: str | Path) -> str:
@@ -50,15 +48,6 @@ def kind_of(path: str | Path) -> int:
         return stat.S_IFMT(os.stat(path).st_mode)
     except (FileNotFoundError, NotADirectoryError, ValueError):  # the last of a name with a zero in it
         return 0
-
-
-def has_working_folder() -> bool:
-    """Whether the folder in which the process was started is still there; else no relative name leads anywhere."""
-    try:
-        os.getcwd()
-    except FileNotFoundError:
-        return False
-    return True
 
 
 def file_name(text: str, default: str) -> str:

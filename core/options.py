@@ -1,18 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of a command that set parameters, made from the definitions of the parameters; its exit statuses."""
+"""The options of a command that set parameters, made from the definitions of the parameters, and how a command ends."""
 
 from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import fields, replace
 from pathlib import Path
 
+from .errors import ReebError
 from .parameters import PRESETS, RENAMED, Parameters, present_names
 from .sentence import Sentence
 
 FAILED, WRONG_OPTION = 1, 2  # exit statuses of a command; the latter is argparse's
+NO_WORKING_FOLDER = "The folder in which the command was started is gone. Change to one that is there."
+
+
+@contextmanager
+def in_working_folder() -> Iterator[None]:
+    """What a command does: a ReebError says so where a file is missed because the working folder itself is gone."""
+    try:
+        yield
+    except FileNotFoundError as error:
+        try:
+            os.getcwd()
+        except FileNotFoundError:  # no relative name leads anywhere
+            raise ReebError(NO_WORKING_FOLDER) from error
+        raise
 
 
 def add_parameters(group: argparse._ArgumentGroup) -> None:

@@ -9,8 +9,7 @@ from __future__ import annotations
 import argparse
 
 from ..core.errors import ParameterError, ReebError
-from ..core.file_names import NO_WORKING_FOLDER, has_working_folder
-from ..core.options import FAILED, WRONG_OPTION
+from ..core.options import FAILED, WRONG_OPTION, in_working_folder
 from ..core.version import VERSION
 from . import batch, decompose, similar
 from .words import say
@@ -42,15 +41,11 @@ def import_readers() -> None:
 def run(options: argparse.Namespace) -> int:
     """Do it; returns the exit status: 0 only if all went well."""
     try:
-        return COMMANDS[options.command].run(options)
+        with in_working_folder():
+            return COMMANDS[options.command].run(options)
     except ReebError as error:
         say(str(error))
         return WRONG_OPTION if isinstance(error, ParameterError) else FAILED
     except MemoryError:
         say("There is not enough memory.")
-        return FAILED
-    except FileNotFoundError:
-        if has_working_folder():
-            raise
-        say(NO_WORKING_FOLDER)
         return FAILED
