@@ -85,6 +85,15 @@ def has_parts(obj: bpy.types.Object | None) -> bool:
     return obj is not None and obj.type == "MESH" and has_result(obj.data)
 
 
+def state_of(mesh: bpy.types.Mesh) -> tuple[object, ...]:
+    """Changes with what is stored with a mesh: what is made of that can be kept as long as this stays.
+
+    By its seconds another run is told that has the same parts: what it replaced may have been unreadable.
+    """
+    result = mesh.reeb_parts
+    return mesh.session_uid, result.fingerprint, result.numbers, result.seconds
+
+
 def is_edited(mesh: bpy.types.Mesh) -> bool:
     """Whether the mesh was edited since: only the quick checks, for the panel."""
     result = mesh.reeb_parts

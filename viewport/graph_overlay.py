@@ -134,8 +134,7 @@ def state(source: bpy.types.Object, items: list[bpy.types.Object]) -> tuple[obje
     """What changes when the arcs of a model have to be colored anew. items : the objects of its graph that are seen."""
     result = source.data.reeb_parts
     folded = [graph_objects.is_folded(item) for item in items]  # other ones, when parts are hidden
-    # By its seconds another run is told that has the same parts: what it replaced may have been unreadable.
-    return (source.data.is_editmode, result.edited, result.fingerprint, result.numbers, result.seconds,
+    return (source.data.is_editmode, result.edited, store.state_of(source.data),
             [part.color[:] for part in result.parts], graph_follow.places(source)[0], folded)
 
 

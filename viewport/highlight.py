@@ -63,10 +63,7 @@ def curves_of(obj: bpy.types.Object, cut: str) -> Curves | None:
         return None
     if len(obj.data.polygons) > PLANAR_MOST:
         cut = "SMOOTH"
-    result = obj.data.reeb_parts
-    stretch = bridge.world_stretch(obj)
-    # Seconds are those of a run: what it replaced may have been unreadable.
-    key = (obj.data.session_uid, result.fingerprint, result.numbers, result.seconds, stretch.tobytes(), cut)
+    key = (store.state_of(obj.data), bridge.world_stretch(obj).tobytes(), cut)
     return _searches.of(key, partial(_finding, obj.name, obj.data.session_uid, cut), len(obj.data.polygons) <= AT_ONCE)
 
 
@@ -179,13 +176,12 @@ def _shows_parts(obj: bpy.types.Object) -> bool:
 def _build(obj: bpy.types.Object, numbers: list[int], show_cuts: bool, cut: str) -> None:
     """Build what is drawn, if it is not what was drawn last. numbers : parts with an outline."""
     global _built, _lines, _cuts, _surface
-    result = obj.data.reeb_parts
     curves = curves_of(obj, cut)
     hidden = selection.hidden_faces(obj.data).tobytes() if selection.hides_faces(obj.data) else b""
     keys = obj.data.shape_keys
     mix = [(key.value, key.mute) for key in keys.key_blocks] + [obj.active_shape_key_index] if keys else []
-    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, result.seconds, tuple(numbers),
-           hash(hidden), tuple(mix), version(obj), show_cuts, cut, curves is None)
+    key = (obj.session_uid, store.state_of(obj.data), tuple(numbers), hash(hidden), tuple(mix), version(obj), show_cuts,
+           cut, curves is None)
     if key == _built:
         return
     _built = key

@@ -263,8 +263,7 @@ def forget() -> None:
 
 def result_key(obj: bpy.types.Object) -> tuple:
     """Changes with the object, its mesh and its parts."""
-    result = obj.data.reeb_parts
-    return obj.name, obj.data.session_uid, result.fingerprint, result.numbers
+    return obj.name, *store.state_of(obj.data)
 
 
 def _on_line(lines: GraphLines, segment: int, share: float) -> Target:
