@@ -14,7 +14,7 @@ import numpy as np
 from ....core.arrays.components import components
 from ....core.arrays.indexing import renumbered, sums_by
 from ....core.arrays.ties import rounded
-from ....core.arrays.vectors import lengths
+from ....core.arrays.vectors import distances_between, lengths
 from ....core.uses.caps.networks import nested_sides, own_places
 from ....core.uses.caps.surfaces import common_order
 from .body_surface import crossing, search_tree
@@ -68,13 +68,13 @@ def ways_to_middles(points: np.ndarray, cuts: np.ndarray, meeting: np.ndarray, d
     own, vertex = network[here], used[here]
     middles = sums_by(own, points[vertex], n_networks)
     middles /= np.maximum(np.bincount(own, minlength=n_networks), 1)[:, None]
-    length = np.linalg.norm(points[cuts[:, 0]] - points[cuts[:, 1]], axis=1)
-    step = sums_by(network[place[:, 0]], length, n_networks)
-    step /= np.maximum(np.bincount(network[place[:, 0]], minlength=n_networks), 1)
+    of_cut = network[place[:, 0]]
+    step = sums_by(of_cut, distances_between(points, *cuts.T), n_networks)
+    step /= np.maximum(np.bincount(of_cut, minlength=n_networks), 1)
     ways = {}
     for one in np.unique(own).tolist():
         starts = vertex[own == one]
-        edges = cuts[network[place[:, 0]] == one]
+        edges = cuts[of_cut == one]
         found = _best(_Network(points, starts, _stretches(edges, starts), discs), middles[one], float(step[one]))
         ways.update(zip(starts.tolist(), found, strict=True))
     return ways
@@ -300,9 +300,9 @@ def _middles(starts: np.ndarray, mean: np.ndarray, body: BodySurface, side: floa
         return [mean]
     seen = np.array([_sees(starts, np.broadcast_to(place, starts.shape), body) for place in places])
     order = np.lexsort((-rounded(lengths(places - mean)), -seen.sum(axis=1))).tolist()
-    found, apart = [mean, places[0], places[order[0]]], _APART * float(np.linalg.norm(np.ptp(starts, axis=0)))
+    found, least = [mean, places[0], places[order[0]]], _APART * float(np.linalg.norm(np.ptp(starts, axis=0)))
     for index in order:
-        if len(found) < _MIDDLES and lengths(places[index] - found[1:]).min() > apart:
+        if len(found) < _MIDDLES and lengths(places[index] - found[1:]).min() > least:
             found.append(places[index])
     return found
 
