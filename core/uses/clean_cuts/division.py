@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...arrays.indexing import inverse, stable_order
+from ...arrays.indexing import begins_run, inverse, stable_order
 from ...mesh.corners import next_of_owner
 from ...mesh.labels import majority
 from .band import Band
@@ -49,6 +49,17 @@ class Division:
     odd: np.ndarray
 
     @cached_property
+    def n_fragments(self) -> np.ndarray:
+        """(f,) int64, how many fragments each face is divided into; 1 for one that stays whole."""
+        return np.bincount(self.face[self.begins], minlength=len(self.odd))
+
+    def concerned(self, labels: np.ndarray) -> np.ndarray:
+        """Which faces are divided or change their part, (f,) bool. labels : (f,) int64, the part of each before."""
+        found = self.n_fragments > 1
+        found[self.face[self.label != labels[self.face]]] = True
+        return found
+
+    @cached_property
     def beside(self) -> tuple[np.ndarray, np.ndarray]:
         """Portions of two faces that are the two sides of the same stretch, two (k,) int64."""
         order = stable_order(self.side)
@@ -70,9 +81,8 @@ def divide(band: Band, sides: Sides) -> Division:
     whole = slim | odd | (count > 3)
     label = np.where(whole[face], _most(band, face, label, len(count))[face], label)
     changes &= ~whole[face]
-    begins = changes | ((np.bincount(face[changes], minlength=len(count)) == 0)[face] & (face != np.roll(face, 1)))
-    if len(face) and (face == face[0]).all():
-        begins[0] |= not changes.any()
+    # A face that stays whole is one fragment, which begins where the face does.
+    begins = changes | (begins_run(face) & (np.bincount(face[changes], minlength=len(count)) == 0)[face])
     last = np.searchsorted(face[begins], np.arange(len(count)), side="right") - 1
     fragment = np.cumsum(begins) - 1
     wrapped = (fragment < 0) | (face[np.flatnonzero(begins)[fragment]] != face)

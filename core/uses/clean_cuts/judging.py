@@ -34,11 +34,8 @@ def judged(band: Band, sides: Sides, division: Division,
     """
     table = band.table
     low, high = band.edge_labels
-    faces = np.zeros(len(band.faces), bool)
+    faces = division.concerned(band.labels)
     faces[table.corner_face[(low < high)[table.corner_edge]]] = True
-    several = np.bincount(division.face[division.begins], minlength=len(faces)) > 1
-    faces |= several
-    faces[division.face[division.label != band.labels[division.face]]] = True
     group = _groups(band, faces)
     before = _turning_by(group, band, low < high)
     after = _turning_after(group, band, sides, division)
@@ -98,10 +95,9 @@ def _segments(band: Band, division: Division) -> tuple[np.ndarray, np.ndarray]:
     """What curves consist of, (s, 2) points, and the faces with a point inside, each with its marks, (m, 2)."""
     start = division.point[division.begins]
     face = division.face[division.begins]
-    count = np.bincount(face, minlength=len(band.faces))
-    two = count[face] == 2
+    count = division.n_fragments[face]
+    two, three = count == 2, count == 3
     chords = start[two].reshape(-1, 2)
-    three = count[face] == 3
     inner = np.stack([face[three], start[three]], axis=1)
     spokes = np.stack([len(band.vertices) + len(band.edges) + face[three], start[three]], axis=1)
     one, other = division.beside

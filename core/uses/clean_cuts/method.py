@@ -134,15 +134,9 @@ def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | Non
 def _chosen(band: Band, sides: Sides, division: Division, used: np.ndarray) -> CleanCuts:
     """What is divided around some vertices, (v,) bool, in numbers of the whole mesh."""
     vertex = np.concatenate([band.vertices, band.n_vertices + band.edges])
-    active = np.zeros(len(band.faces), bool)
-    changed = division.label != band.labels[division.face]
-    several = np.bincount(division.face[division.begins], minlength=len(active)) > 1
-    active[division.face[changed]] = True
-    active |= several
-    inside = np.ones(len(active), bool)
+    inside = np.ones(len(band.faces), bool)
     inside[band.table.corner_face[~used[band.table.corner_vertex]]] = False
-    active &= inside
-    begins = division.begins & active[division.face]
+    begins = division.begins & (inside & division.concerned(band.labels))[division.face]
     edge = np.flatnonzero(~np.isnan(sides.share) & used[band.table.edges].all(axis=1))
     planes = np.unique(sides.plane[used & (sides.plane >= 0)])
     return CleanCuts(band.edges[edge], sides.share[edge], band.faces[division.face[begins]],

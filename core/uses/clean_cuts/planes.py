@@ -16,6 +16,8 @@ from .band import Band
 # A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius; if
 # planes are asked for, than such a larger share.
 PLANE_EDGES, PLANE_RADIUS, BENT_RADIUS = 0.25, 0.04, 0.6
+# A curve has a plane if it has so many points and is no line: the square of its width is so much of that of its length.
+FEWEST_POINTS, LEAST_WIDTH = 6, 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +106,7 @@ def _nearest_planes(
     normal = axes[:, :, 0]
     length = sums_by(curve, band.table.edge_length(crossed), count) / n_points
     away = largest_of_each(curve, np.abs((offset * normal[curve]).sum(axis=1)), count)
-    fits = (size[:, 1] > 0.01 * size[:, 2]) & (n_points >= 6)
+    fits = (size[:, 1] > LEAST_WIDTH * size[:, 2]) & (n_points >= FEWEST_POINTS)
     fits &= away <= PLANE_EDGES * length + (BENT_RADIUS if bent else PLANE_RADIUS) * np.sqrt(size.sum(axis=1).clip(0))
     return center, normal, away / np.maximum(length, 1e-300), fits
 

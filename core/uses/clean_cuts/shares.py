@@ -16,6 +16,10 @@ from ...steps import Steps
 from .band import Band
 from .pins import Pins
 
+# Cotangents of the angles of needles are kept within the first; where angles are obtuse, the weight of an edge could be
+# negative, and shares would not stay between 0 and 1: it is at least the second.
+STEEPEST, LEAST_WEIGHT = 10.0, 0.05
+
 
 @dataclass(frozen=True, eq=False)
 class Shares:
@@ -119,11 +123,10 @@ def _walk(band: Band, triangles: np.ndarray) -> csr_array:
     """One step of diffusion, (v, v): to neighbors by the cotangents of the angles that face the edges."""
     ends, u, v = corner_sides(band.table.vertices, triangles)
     across = lengths(cross(u, v))
-    cotangent = np.divide(row_products(u, v), across, out=np.zeros(len(u)), where=across > 0).clip(-10, 10)
+    cotangent = np.divide(row_products(u, v), across, out=np.zeros(len(u)), where=across > 0)
     n = len(band.vertices)
-    matrix = symmetric_matrix(ends, cotangent, n)
-    # Where angles are obtuse a weight could be negative, and shares would not stay between 0 and 1.
-    matrix.data = np.maximum(matrix.data, 0.05)
+    matrix = symmetric_matrix(ends, cotangent.clip(-STEEPEST, STEEPEST), n)
+    matrix.data = np.maximum(matrix.data, LEAST_WEIGHT)
     return (0.5 * eye_array(n) + 0.5 * _rows_to_one(matrix)).tocsr()
 
 

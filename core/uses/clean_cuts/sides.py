@@ -17,6 +17,7 @@ from .shares import Diffusion, diffusing
 # A cut as near to a vertex as such a share of the edge goes through the vertex; in a plane, as the second says, in one
 # that was asked for, as the third.
 SNAP, SNAP_IN_PLANE, SNAP_IN_ASKED_PLANE = 0.15, 0.02, 0.002
+AWAY = 0.02  # share of the edge that a curve stays away from a vertex where it cannot go through it, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +86,6 @@ def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: n
     low[pins.vertex], high[pins.vertex] = np.where(are_between(band, pins, top)[:, None], pins.pair,
                                                    top[pins.vertex][:, None]).T
     meet = (low[a] == low[b]) | (low[a] == high[b]) | (high[a] == low[b]) | (high[a] == high[b])
-    # Where the curve could not be let through the vertex, it stays away from it by a little.
-    least = np.minimum(near, 0.02)
+    least = np.minimum(near, AWAY)
     share = np.where(meet, np.nan, share.clip(least, 1 - least))
     return Sides(low, high, share, plane)
