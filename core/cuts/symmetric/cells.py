@@ -274,13 +274,16 @@ def _label_by_leader(
 def _without_unmirrored(graph: FaceGraph, name: np.ndarray, leading: _LeadingCells, least: float) -> np.ndarray:
     """Name of the cell of each face, (p,) int64, where small cells without their images joined those around them.
 
-    An image counts if it is there and among the images of the neighbors. least : area from which a cell is not small.
+    An image counts if it is there and among the images of the neighbors. name : (p,) int64, of connected cells. least :
+    area from which a cell is not small.
     """
     names, place = renumbered(name)
     pairs = graph.boundaries(place)[0]
     small = np.bincount(place, graph.area) < least
     free = np.bincount(pairs.ravel(), minlength=len(names)) == 0  # touches nothing that it could join
     dropped = small & ~free & _lack_an_image(names, pairs, leading)
+    if not dropped.any():
+        return name
     return connect(graph, fill_unlabeled(graph, np.where(dropped[place], -1, name)))
 
 
