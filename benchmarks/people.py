@@ -166,8 +166,10 @@ class Run:
 
     Attributes
     ----------
-    rows : (k, features) float32;  share, weight : (k,) float64
-        Cuts as judged, what people say of them, how many pairs of faces they concern.
+    rows : (k, features) float32
+        Cuts as judged.
+    share, weight : (k,) float64
+        What people say of each, and how many pairs of faces it concerns.
     error : (c,) float64
         Rand index error after 0..c - 1 merges.
     salience : (c - 1,) float64

@@ -37,6 +37,8 @@ class Pointed:
     number : int
     triangles : (t, 3, 3) float32
         In coordinates of the mesh; none where the parts are seen elsewhere.
+    surface : Surface or None
+        To draw the triangles; None until they are drawn.
     """
 
     key: tuple

@@ -41,7 +41,7 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     place = place_among(lowest, n)[goal]
     a, b = place[a], place[b]
     apart = np.flatnonzero(a != b)
-    # Of a mesh, whose faces are sorted by place, one in sixteen is left.
+    # Of the faces of a mesh, which are sorted by place, one in sixteen is such a lowest one.
     further = components if len(lowest) < n // 2 else _few_components
     count, label = further(len(lowest), a[apart], b[apart])
     return count, label[place]

@@ -2,8 +2,8 @@
 """Small pieces that are there in numbers and stand alone are one part: the leaves of a tree, the shingles of a roof.
 
 What joins pieces judges two of them by how they touch, and leaves that touch nothing have not been judged at all: a
-tree of leaf cards came in 85 parts, a cactus of spines in 41. Whoever names the parts of a tree says leaves, and counts
-none.
+tree of leaf cards came in 85 parts, a cactus of spines in 41. People who name the parts of a tree say "leaves" and do
+not count them.
 """
 
 from __future__ import annotations

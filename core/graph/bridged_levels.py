@@ -182,7 +182,7 @@ def _heaviest_forest(
         rows = np.sort(np.concatenate([chosen, rows]))
         chosen = rows[_forest(cells[rows], weight[rows])]
         if len(waiting):
-            # What those have joined that come before all that wait needs no other.
+            # Those that weigh more than any that waits are in the forest for good: what they join needs no others.
             least, next_one = most[waiting[0]], waiting[0]
             sure = chosen[(weight[chosen] > least) | ((weight[chosen] == least) & (chosen < next_one))]
             body = components(n_parts, *cells[sure].T)[1][cells[waiting]]

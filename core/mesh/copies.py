@@ -105,7 +105,7 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     kept = np.zeros(mesh.n_vertices, bool)
     kept[mesh.faces[is_kept[given.polygon]]] = True
     home = _first_kept(place, kept)
-    # A polygon that is folded onto itself somewhere may have the outline of one that does not come there.
+    # Sides that a polygon goes along there and back are not in its outline: it may have corners that no other has.
     elsewhere = np.unique(given.polygon[~kept[home][mesh.faces].all(axis=1)])
     is_kept[elsewhere], original[elsewhere] = True, elsewhere
     if is_kept.all():

@@ -57,11 +57,10 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
 
 
 def _of_one_side(whole: Decomposition, working: WorkingMesh) -> Iterator[str]:
-    """The notes of the whole; where the half has the same note about its mesh, it counts what lies in the half.
+    """The notes of the whole; those that the half has about its mesh, too, with how many there are in the half.
 
-    That is half of what the whole counts, which has each vertex, border and face twice, or less where the half counts
-    less. So what one of the two alone has at the plane is left out: the whole edges that join four faces, the half its
-    borders.
+    The whole has each vertex, border and face twice, so that this is half of its count, or that of the half where this
+    is less: at the plane, the whole alone has edges that join four faces, and the half alone has borders.
     """
     own = {note.message: note.values["n"] for note in working.notes}
     for note in whole.notes:

@@ -284,5 +284,3 @@ def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: n
         open_ &= ~winner
         open_[b[winner[a]]] = False
     return chosen
-
-

@@ -100,7 +100,7 @@ class Mirror:
         group = SymmetryGroup.generated(np.where(twins < 0, np.arange(len(self.twin)), twins), LARGEST_GROUP)
         if group is None:
             return self
-        # Steps that no two planes have in common lead away from all of them.
+        # The normal of this plane is the sum of all normals, each with a factor of its own: it is none of the planes.
         steps = np.modf(np.arange(1, len(planes) + 1) * np.sqrt(2.0))[0] + 0.5
         beside = sum(step * plane.height for step, plane in zip(steps, planes, strict=True))
         return replace(self, group=group, beside=beside)

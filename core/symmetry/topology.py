@@ -126,7 +126,9 @@ def _mixed(*values: np.ndarray) -> np.ndarray:
 def _paired(forward: np.ndarray, backward: np.ndarray) -> np.ndarray:
     """The half-edge whose color backward is each one's forward, (h,) int64, where either occurs once; else -1."""
     count = len(forward)
-    bits = np.uint64((2 * count).bit_length())  # below them, a color's number says whose it is: one sort finds all
+    # The lowest bits of each color are replaced by the number of its half-edge, so that one sort brings together those
+    # of one color and tells whose they are.
+    bits = np.uint64((2 * count).bit_length())
     key = np.concatenate([forward, backward]) >> bits << bits | np.arange(2 * count, dtype=np.uint64)
     key.sort()
     owner = (key & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.int64)

@@ -126,7 +126,7 @@ def sample_surface(
     if copies:
         number = np.bincount(copies.original)
         sample, face_area = sample[copies.original], (face_area / number)[copies.original]
-    distances = base.distances[:, base.indices].astype(np.float64)
+    distances = base.distances[:, base.indices]
     distances = (distances + distances.T) / (2 * unit)
     weight = base.areas / base.areas.sum()
     position = mesh.vertices[base.indices] / unit

@@ -255,4 +255,3 @@ def _limit_memory(limit: int) -> None:
 
         resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
         bytearray(LEAST)
-

@@ -38,6 +38,7 @@ SHARE_AT_HALF, SHEET_SHARE_AT_HALF = 0.55, 0.6
 # which are still much smaller than parts.
 MAX_FACES = 60_000
 WHOLE = 0.9  # share of its area from which on the coarse copy of a surface is not torn
+IN_VAIN = 0.8  # share of its faces above which a copy in which pieces stay whole is hardly coarser
 BAND = 3  # by how many edges of a copy cuts that were found on it move on a finer one, at most
 
 
@@ -266,7 +267,7 @@ def _coarse_copies(pyramid: Pyramid) -> list[Coarsening]:
         copy, area = step.mesh, step.area
     while copy.n_faces > MAX_FACES:
         step = _coarsened_whole(copy, area)
-        if step.mesh.n_faces > 0.8 * copy.n_faces:
+        if step.mesh.n_faces > IN_VAIN * copy.n_faces:
             break
         steps.append(step)
         copy, area = step.mesh, step.area

@@ -98,7 +98,7 @@ def turned_candidates(candidates: FaceCandidates, group: SymmetryGroup, height: 
     """
     if candidates.hierarchy.n_candidates > MOST_CANDIDATES:
         return candidates
-    # Of all images of a face the one farthest from the plane leads: those that do form a wedge.
+    # Of all images of a face the one farthest above the plane leads; those that lead form a wedge.
     wedge = height >= height[group.image].max(axis=0) - 1e-6 * np.abs(height).max()
     wedges = [wedge[group.image[element]] for element in group.elements[:: -(-len(group.elements) // MOST_WEDGES)]]
     return _best(candidates, group, wedges, np.inf) or candidates

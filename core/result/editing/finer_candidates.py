@@ -47,6 +47,7 @@ def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceG
     touching = graph.with_contacts(decomposition.contacts)
     _, piece = touching.regions(np.where(left, candidates, -1))
     _, whole = touching.regions(np.where(partly[candidates], candidates, -1))
+    # Of what is left of each whole, the largest piece has rank 0.
     number, face = np.unique(piece[left], return_index=True)
     of = whole[left][face]
     order = np.lexsort((-np.bincount(piece, graph.area)[number], of))
@@ -78,7 +79,7 @@ def split_around(
     moved = number > 0
     place = pieces_cut_off(decomposition, moved, graph)
     place[moved] = place.max(initial=0) + 1 + np.unique(number[moved], return_inverse=True)[1]
-    # What differs, differs in a bit: of a thousand numbers, ten cuts tell all.
+    # Two numbers differ in a bit: a cut for each bit, ten for a thousand numbers, parts all of them.
     for bit in range(int(place.max(initial=0)).bit_length()):
         decomposition = split_candidates(decomposition, (place >> bit) & 1 == 1, graph, table)
     return decomposition

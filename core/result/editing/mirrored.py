@@ -207,7 +207,8 @@ def on_both_sides(
             target = number if itself.mean() > 0.5 else of_new.setdefault(number, new())
         if not target:
             continue
-        # Each is asked for its image, and not told by it: several may have one image, which leaves others without.
+        # Those whose image has changed, not the images of those that have: several may share an image, and others are
+        # nobody's.
         there = np.flatnonzero(~moved & (twin >= 0))
         there = there[moved[twin[there]] & (after[twin[there]] == number)]
         result[there[image_of[before[twin[there]]] == before[there]]] = target
