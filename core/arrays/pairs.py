@@ -69,6 +69,15 @@ def edge_keys(start: np.ndarray, end: np.ndarray, *, count: int) -> np.ndarray:
     return np.minimum(start, end).astype(np.int64, copy=False) * count + np.maximum(start, end)
 
 
+def repeated_in(group: np.ndarray, member: np.ndarray, *, count: int) -> np.ndarray:
+    """Members that a group has more than once, (r,) int64, one for each time too many.
+
+    group, member : (n,) of int, 0 or more, what belongs to which. count : members are 0..count-1.
+    """
+    key = np.sort(group.astype(np.int64) * count + member)
+    return key[1:][key[1:] == key[:-1]] % count
+
+
 def are_among(pairs: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Whether each pair is one of some others, (n,) bool. pairs, others : (n, 2) and (k, 2) int64, 0 or more."""
     count = int(max(pairs.max(initial=0), others.max(initial=0))) + 1

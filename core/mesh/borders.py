@@ -7,6 +7,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import first_at_place
+from ..arrays.pairs import repeated_in
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
 NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
@@ -61,9 +62,8 @@ def _joined_nearby(
     of_vertex[place] = group
     corner = of_vertex[joined[corner_vertex]]
     here = corner >= 0  # all others are no matter of this
-    key = np.sort(corner_face[here].astype(np.int64) * count + corner[here])
     kept = np.ones(count, bool)
-    kept[key[1:][key[1:] == key[:-1]] % count] = False
+    kept[repeated_in(corner_face[here], corner[here], count=count)] = False
     first = np.full(count, len(vertices))
     np.minimum.at(first, group, place)
     goal = np.arange(len(vertices))

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...core.arrays.indexing import hashed_sets, inverse
-from ...core.arrays.pairs import distinct_pairs
+from ...core.arrays.pairs import distinct_pairs, repeated_in
 from ...core.mesh.borders import GAP
 from ...core.mesh.corners import next_of_owner
 from ..reading import element_layers
@@ -96,8 +96,7 @@ def _wrong(whole: Elements, first: np.ndarray) -> np.ndarray:
     wrong, receives = np.zeros(len(first), bool), np.zeros(len(first), bool)
     receives[first[first != np.arange(len(first))]] = True
     vertex, face = first[whole.corner_vertex], whole.corner_face
-    key = np.sort(face.astype(np.int64) * len(first) + vertex)
-    wrong[key[1:][key[1:] == key[:-1]] % len(first)] = True
+    wrong[repeated_in(face, vertex, count=len(first))] = True
     edges, number = distinct_pairs(*np.sort(first[whole.ends], axis=1).T)
     crowded = np.bincount(number[whole.corner_edge], minlength=len(edges)) > 2
     wrong[edges[crowded]] = True

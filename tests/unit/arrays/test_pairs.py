@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from core.arrays.pairs import are_among, edge_keys, pair_keys, partners_of
+from core.arrays.pairs import are_among, edge_keys, pair_keys, partners_of, repeated_in
 
 
 def test_keys_of_pairs_are_in_the_order_of_the_pairs():
@@ -19,6 +19,12 @@ def test_keys_of_edges_are_whole_numbers_of_64_bits_whichever_end_comes_first():
 
 def test_partners_are_listed_in_the_order_of_the_pairs():
     assert partners_of(np.array([(2, 0), (0, 1), (2, 3), (0, 2)]), 5) == [[2, 1, 2], [0], [0, 3, 0], [2], []]
+
+
+def test_members_that_a_group_has_more_than_once_whatever_lies_between():
+    group, member = np.array([[70_000, 5], [1, 5], [70_000, 5], [2, 3], [70_000, 5], [1, 4], [2, 3]], np.int32).T
+    assert repeated_in(group, member, count=70_000).tolist() == [3, 5, 5]
+    assert repeated_in(group[:2], member[:2], count=70_000).tolist() == []
 
 
 def test_which_pairs_are_among_others():
