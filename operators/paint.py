@@ -6,6 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
+from ..core.arrays.int64 import arange
 from ..scene.changes import pins
 from ..scene.reporting import PartOperator
 from ..scene.result import part_names
@@ -100,7 +101,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         length = np.linalg.norm(after.location - before.location) / (0.5 * self.radius)
         count = int(min(np.ceil(length), np.ceil(np.abs(end - start).max())))
         obj = context.view_layer.objects.active
-        for share in np.arange(1, count) / max(count, 1):
+        for share in arange(1, count) / max(count, 1):
             mouse = tuple((start + share * (end - start)).tolist())
             target = self.model.under(context, obj, region, mouse, graph=False)
             if target is not None:

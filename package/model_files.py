@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .core.arrays.int64 import arange, cumsum
 from .core.atomic_files import HIDDEN
 from .core.errors import ReebError
 from .core.file_names import kind_of, readable
@@ -282,14 +283,14 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
         scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
     meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
-    first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    first = cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     faces = [mesh.faces + start for mesh, start in zip(meshes, first, strict=False)]
     vertices = np.concatenate([np.empty((0, 3)), *(mesh.vertices for mesh in meshes)])
     triangles = np.concatenate([np.empty((0, 3), np.int64), *faces])
     # Added to the number of its mesh's first vertex, one that is not there could be a vertex of the next mesh.
     if any(((mesh.faces < 0) | (mesh.faces >= len(mesh.vertices))).any() for mesh in meshes):
         raise ValueError(NOT_THERE)
-    return vertices, triangles, np.arange(len(triangles))
+    return vertices, triangles, arange(len(triangles))
 
 
 def _read_by_blender(path: Path, blender: str | Path | None,

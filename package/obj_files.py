@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 
+from .core.arrays.int64 import cumsum
 from .polygons_in_files import cut_polygons, places, plain_text
 
 _COMMENT = re.compile(rb"#[^\n]*")
@@ -60,4 +61,4 @@ def _corners(text: bytes) -> tuple[np.ndarray, np.ndarray]:
 def _n_before(text: bytes) -> np.ndarray:
     """How many vertices stand before each face, (f,): a face counts back from there, where its indices are negative."""
     is_vertex = np.frombuffer(b"".join(_EITHER.findall(text)), np.uint8) == ord("v")
-    return np.cumsum(is_vertex)[~is_vertex]
+    return cumsum(is_vertex)[~is_vertex]

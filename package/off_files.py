@@ -10,6 +10,7 @@ import re
 
 import numpy as np
 
+from .core.arrays.int64 import cumsum
 from .polygons_in_files import cut_polygons, places, plain_text
 
 # Letters before the word tell what follows the position of a vertex; with 4 and n it has other than three coordinates.
@@ -59,7 +60,7 @@ def _corners(rows: list[bytes]) -> tuple[np.ndarray, np.ndarray]:
         faces = [row.split(None, size + 1)[: size + 1] for row, size in zip(rows, sizes.tolist(), strict=True)]
         words = [word for face in faces for word in face]
     # Each face begins with its size. One that lacks a corner moves all that follow it.
-    starts = np.cumsum(sizes + 1) - sizes - 1
+    starts = cumsum(sizes + 1) - sizes - 1
     numbers = np.array(words, np.bytes_).astype(np.int64)
     if len(numbers) != len(sizes) + sizes.sum() or (numbers[starts] != sizes).any() or (sizes < 0).any():
         raise ValueError("a face has fewer corners than it says")

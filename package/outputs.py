@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .core.arrays.indexing import stable_order
+from .core.arrays.int64 import arange
 from .core.errors import ParameterError
 from .core.file_names import file_name
 from .core.mesh.arguments import whole_numbers
@@ -187,7 +188,7 @@ def picture_bytes(model: Any, result: Decomposition, parts: Parts, size: int, gr
         raise ParameterError(Sentence("The size of a picture is a whole number of pixels, 1 to {most}, not {size}.",
                                       most=LARGEST_PICTURE, size=size), "size")
     mesh = TriMesh.of(model)
-    polygon = getattr(model, "polygon", np.arange(mesh.n_faces))
+    polygon = getattr(model, "polygon", arange(mesh.n_faces))
     if int(polygon.max(initial=-1)) + 1 != len(parts.labels):
         raise ParameterError(Sentence("The parts are of {n} faces, the model has {faces}.", n=len(parts.labels),
                                       faces=int(polygon.max(initial=-1)) + 1), "parts")

@@ -18,6 +18,7 @@ from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
+from .core.arrays.int64 import arange, cumsum, full
 from .polygons_in_files import cut_polygons
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     vertices = np.stack([data["vertex"][axis] for axis in "xyz"], axis=1).astype(np.float64)
     corner, sizes = _corners(data["face"]) if "face" in data else (np.empty(0, np.int64), np.empty(0, np.int64))
     triangles = _of_strips(data["tristrips"]) if "tristrips" in data else np.empty((0, 3), np.int64)
-    return cut_polygons(vertices, np.append(corner, triangles), np.append(sizes, np.full(len(triangles), 3)))
+    return cut_polygons(vertices, np.append(corner, triangles), np.append(sizes, full(len(triangles), 3)))
 
 
 def _data(path: Path) -> PlyData:
@@ -110,9 +111,9 @@ def _of_strips(strips: PlyElement) -> np.ndarray:
     -1 ends a strip within a row, as the 3D scans of Stanford have it; a vertex that comes twice joins two strips.
     """
     corner, sizes = _rows(strips)
-    place = np.arange(len(corner))
+    place = arange(len(corner))
     begins = np.zeros(len(corner), bool)
-    begins[(np.cumsum(sizes) - sizes)[sizes > 0]] = True
+    begins[(cumsum(sizes) - sizes)[sizes > 0]] = True
     begins[1:] |= corner[:-1] == -1
     in_strip = place - np.maximum.accumulate(np.where(begins, place, 0))
     last = np.flatnonzero((in_strip >= 2) & (corner != -1))
@@ -136,5 +137,5 @@ def _rows(element: PlyElement) -> tuple[np.ndarray, np.ndarray]:
     name = next((name for name in (*_CORNERS, *lists) if name in lists), None)
     rows = element[name] if name and len(element) else np.empty((0, 3), np.int64)
     if rows.ndim == 2:
-        return rows.ravel().astype(np.int64), np.full(len(rows), rows.shape[1])
+        return rows.ravel().astype(np.int64), full(len(rows), rows.shape[1])
     return np.concatenate(rows).astype(np.int64), np.array([len(row) for row in rows])

@@ -12,6 +12,7 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 
 import numpy as np
 
+from .core.arrays.int64 import arange
 from .polygons_in_files import places, plain_text
 
 _FACET = re.compile(rb"\bfacet\s+normal", re.IGNORECASE)
@@ -47,7 +48,7 @@ def parse_stl(data: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         none.
     """
     corners = _of_numbers(data) if _is_binary(data) else _of_words(plain_text(data).replace(b"\r", b"\n"))
-    return corners, np.arange(len(corners)).reshape(-1, 3), np.arange(len(corners) // 3)
+    return corners, arange(len(corners)).reshape(-1, 3), arange(len(corners) // 3)
 
 
 def _is_binary(data: bytes) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.arrays.components import components
+from ..core.arrays.int64 import arange
 from ..core.graph.reeb import ReebGraph
 from ..core.result.decomposition import Decomposition
 from ..core.uses.graph_folding import unfolded
@@ -66,7 +67,7 @@ class GraphLines:
 
 def _segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:
     """Nodes come first, then the center points of the arcs in order. arcs : (q,) bool."""
-    points = graph.n_nodes + np.arange(len(graph.point_value))
+    points = graph.n_nodes + arange(len(graph.point_value))
     following = np.flatnonzero((graph.point_arc[1:] == graph.point_arc[:-1]) & arcs[graph.point_arc[1:]])
     inner = np.stack([points[following], points[following + 1]], axis=1)
     full = np.flatnonzero((np.diff(graph.arc_points) > 0) & arcs)

@@ -15,6 +15,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
+from ..core.arrays.int64 import arange
 from ..scene import store
 from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.ours.made_objects import ROLE
@@ -34,7 +35,7 @@ _lines: dict[int, tuple] = {}  # of each graph, with what they were built of
 
 
 def _corners(count: int, start: float) -> np.ndarray:
-    angle = start + 2 * np.pi * np.arange(count) / count
+    angle = start + 2 * np.pi * arange(count) / count
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 

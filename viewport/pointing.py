@@ -15,6 +15,7 @@ from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import ArrayLike
 
+from ..core.arrays.int64 import arange
 from ..scene import store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_follow, graph_objects
@@ -109,7 +110,7 @@ class Model:
         from scipy.spatial import cKDTree
 
         if part not in self._trees:
-            faces = np.flatnonzero(self.numbers == part) if part else np.arange(len(self.numbers))
+            faces = np.flatnonzero(self.numbers == part) if part else arange(len(self.numbers))
             self._trees[part] = faces, cKDTree(self.face_center[faces])
         return self._trees[part]
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every stage does with whole arrays, and which knows of no mesh.
 
+- ``int64``: whole numbers that have as many bits on every system
 - ``indexing``: orders, sums by group, ranges, numbering
 - ``ties``: numbers that are equal but for rounding
 - ``components``: what hangs together

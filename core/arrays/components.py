@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from .indexing import inverse, place_among
+from .int64 import arange
 
 MANY_ELEMENTS = 5_000  # number of elements from which on it is faster to divide the search for components into rounds
 FEW_ELEMENTS = 600  # number of elements and pairs up to which a search in Python takes less time than a call of SciPy
@@ -34,10 +35,10 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     if n < MANY_ELEMENTS:
         return _few_components(n, a, b)
     # Each element goes to a lower one that it is joined with, and on to where that one goes, as far down as it comes.
-    goal = np.arange(n)
+    goal = arange(n)
     goal[np.maximum(a, b)] = np.minimum(a, b)
     goal = roots(goal)
-    lowest = np.flatnonzero(goal == np.arange(n))
+    lowest = np.flatnonzero(goal == arange(n))
     place = place_among(lowest, n)[goal]
     a, b = place[a], place[b]
     apart = np.flatnonzero(a != b)
@@ -87,5 +88,5 @@ def _few_components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarr
     graph = coo_array((np.ones(len(a)), (a, b)), shape=(n, n))
     count, label = connected_components(graph, directed=False)
     first = np.empty(count, np.int64)
-    first[label[::-1]] = np.arange(n - 1, -1, -1)  # NumPy keeps the last of the values written to one place
+    first[label[::-1]] = arange(n - 1, -1, -1)  # NumPy keeps the last of the values written to one place
     return count, inverse(np.argsort(first, kind="stable"))[label]

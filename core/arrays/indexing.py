@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 import numpy as np
 
+from .int64 import arange, cumsum, full
 from .ties import TIE, ranks
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def _counted_order(keys: np.ndarray, count: int) -> np.ndarray | None:
         from scipy.sparse import csr_array  # imported here for the reason that arrays.components gives
     except ImportError:
         return None
-    rows = np.arange(len(keys) + 1)
+    rows = arange(len(keys) + 1)
     matrix = csr_array((np.ones(len(keys), np.int8), keys, rows), shape=(len(keys), count))
     return matrix.tocsc().indices.astype(np.int64)
 
@@ -115,7 +116,7 @@ def _packed_order(keys: np.ndarray, width: int) -> np.ndarray:
     """What ``stable_order`` returns for keys of so many bits, each sorted with its place; by its last bits first."""
     for_place = (len(keys) - 1).bit_length()
     room = 63 - for_place
-    place = np.arange(len(keys))
+    place = arange(len(keys))
     order = place
     for shift in range(0, width, room):
         digits = ((keys if shift == 0 else keys[order]) >> shift) & ((1 << room) - 1)
@@ -151,14 +152,14 @@ def run_starts(values: np.ndarray) -> np.ndarray:
 def inverse(order: np.ndarray) -> np.ndarray:
     """Place of each element in an order, (n,) int64. order : (n,) int64, the element at each place."""
     place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
+    place[order] = arange(len(order))
     return place
 
 
 def place_among(chosen: np.ndarray, count: int) -> np.ndarray:
     """Place among some chosen elements, (k,) int64, of each element 0..count-1: (count,) int64; -1 for all others."""
-    place = np.full(count, -1)
-    place[chosen] = np.arange(len(chosen))
+    place = full(count, -1)
+    place[chosen] = arange(len(chosen))
     return place
 
 
@@ -229,7 +230,7 @@ def expanded(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarr
     row, number : (count.sum(),) int64
         Range of each number, and the numbers.
     """
-    return np.repeat(np.arange(len(first)), count), ranges(first, count)
+    return np.repeat(arange(len(first)), count), ranges(first, count)
 
 
 def ranges(first: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -237,7 +238,7 @@ def ranges(first: np.ndarray, count: np.ndarray) -> np.ndarray:
     before = np.cumsum(count, dtype=np.int64)
     total = int(before[-1]) if len(before) else 0
     before -= count
-    return np.arange(total) + np.repeat(first - before, count)
+    return arange(total) + np.repeat(first - before, count)
 
 
 def spread_evenly(weight: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
@@ -266,7 +267,7 @@ def even_steps(weight: np.ndarray, count: int) -> np.ndarray:
     """Places at equal steps of weight, (count,) int64 or fewer, among elements in some order. weight : (m,) float64."""
     total = np.cumsum(weight)
     # Where an element ends at a step, as many faces do on a regular grid, the step is in this element.
-    steps = (np.arange(count) + 0.5) / count * total[-1] * (1 - TIE)
+    steps = (arange(count) + 0.5) / count * total[-1] * (1 - TIE)
     return np.unique(np.searchsorted(total, steps).clip(max=len(weight) - 1))
 
 
@@ -284,7 +285,7 @@ def first_at_place(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     first : (n,) int64
         The first chosen point at the place of each chosen point; all others themselves.
     """
-    first = np.arange(len(points))
+    first = arange(len(points))
     # Adding 0.0 turns -0.0 into 0.0: both are one place.
     _, place, inverse = np.unique(points[chosen] + 0.0, axis=0, return_index=True, return_inverse=True)
     first[chosen] = chosen[place[inverse.reshape(-1)]]
@@ -340,7 +341,7 @@ def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     values = flat[order]
     new = begins_run(values)
     index = np.empty(len(flat), np.int64)
-    index[order] = np.cumsum(new) - 1
+    index[order] = cumsum(new) - 1
     return values[new], index.reshape(np.shape(labels))
 
 
@@ -349,7 +350,7 @@ def _few_names(flat: np.ndarray, least: int, count: int, shape: tuple[int, ...])
     value = flat.astype(np.int64) - least
     there = np.zeros(count, bool)
     there[value] = True
-    return (np.flatnonzero(there) + least).astype(flat.dtype), (np.cumsum(there) - 1)[value].reshape(shape)
+    return (np.flatnonzero(there) + least).astype(flat.dtype), (cumsum(there) - 1)[value].reshape(shape)
 
 
 def first_of_rows(rows: np.ndarray, width: int) -> np.ndarray:
@@ -396,7 +397,7 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
         Index of that element; of elements equal in all keys the highest index. -1 for a group without elements.
     """
     # Those that come last by the first key, of them those that do by the second: several times faster than sorting.
-    rows = np.arange(len(group))
+    rows = arange(len(group))
     for key in keys:
         values, of = key[rows], group[rows]
         if not len(rows):

@@ -9,6 +9,7 @@ from scipy.spatial.distance import cdist
 
 from ..processors import n_processors
 from .indexing import first_at_place, last_of_each
+from .int64 import arange, full
 from .ties import TIE, first_least
 
 # Points in a leaf; SciPy takes 16. With 32, and boxes that are not fitted to their points, medial balls take a
@@ -82,9 +83,9 @@ def nearest_before(point: np.ndarray) -> np.ndarray:
     -----
     O(n log^2 n): the second half is searched in a tree of the first, and so within each half.
     """
-    before = first_at_place(point, np.arange(len(point)))
+    before = first_at_place(point, arange(len(point)))
     # Of many in one place, each would be as near as the others to all that follow.
-    own = np.flatnonzero(before == np.arange(len(point)))
+    own = np.flatnonzero(before == arange(len(point)))
     if len(own):
         place = _nearest_before(point[own])
         before[own[1:]] = own[place[1:]]
@@ -120,7 +121,7 @@ def nearest_to_middle(group: np.ndarray, point: np.ndarray, middle: np.ndarray) 
 
 def _nearest_before(point: np.ndarray) -> np.ndarray:
     """What ``nearest_before`` returns, of n points in different places, one or more."""
-    before, distance = np.full(len(point), -1), np.full(len(point), np.inf)
+    before, distance = full(len(point), -1), np.full(len(point), np.inf)
 
     def keep_(some: slice, found: np.ndarray, far: np.ndarray) -> None:
         """What was found for some points, unless something before that is as near."""
@@ -133,7 +134,7 @@ def _nearest_before(point: np.ndarray) -> np.ndarray:
             far = cdist(point[start:end], point[start:end])[1:]
             far[np.triu_indices_from(far, 1)] = np.inf
             found = first_least(far)
-            keep_(slice(start + 1, end), start + found, far[np.arange(len(far)), found])
+            keep_(slice(start + 1, end), start + found, far[arange(len(far)), found])
             return
         middle = (start + end) // 2
         search_(start, middle)

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .int64 import cumsum
+
 # Numbers whose difference is less, in units of the larger, are equal but for rounding: models come in single precision,
 # or with six digits, and a model that is moved or scaled comes with others. They are compared with the largest, or the
 # least, and not rounded one by one: two lengths that differ in the last digit would be equal at one scale and not at
@@ -68,11 +70,11 @@ def ranks(values: np.ndarray, unit: float) -> np.ndarray:
     order = np.argsort(values, kind="stable")
     ranked = values[order]
     begins = np.append(True, np.diff(ranked) > same)[: len(values)]
-    row = np.cumsum(begins) - 1
+    row = cumsum(begins) - 1
     part = ((ranked - ranked[begins][row]) / (8 * same)).astype(np.int64)
     begins[1:] |= part[1:] != part[:-1]
     rank = np.empty(len(values), np.int64)
-    rank[order] = np.cumsum(begins) - 1
+    rank[order] = cumsum(begins) - 1
     return rank
 
 

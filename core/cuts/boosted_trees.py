@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.indexing import frozen
+from ..arrays.int64 import arange
 from ..arrays.ties import on_grid
 from ..errors import ReebError
 from ..sentence import Sentence
@@ -108,7 +109,7 @@ class BoostedTrees:
         columns[:, :len(rows)] = (np.rint(rows * 2.0**26) / 2.0**26).T
         feature, threshold, mask = self._by_node
         n_trees, n_leaves = self.leaf.shape
-        first, lowest, leaf = np.arange(n_trees) * n_leaves, _lowest_bit(), self.leaf.ravel()
+        first, lowest, leaf = arange(n_trees) * n_leaves, _lowest_bit(), self.leaf.ravel()
         total = np.empty(columns.shape[1])
         for start in range(0, len(total), ROWS):
             some = np.ascontiguousarray(columns[:, start:start + ROWS])
@@ -141,5 +142,5 @@ def _other_features(file: str, trained_on: tuple[str, ...], names: tuple[str, ..
 @cache
 def _lowest_bit() -> np.ndarray:
     """Place of the lowest bit set in each number of 16 bits, (65536,) uint8; 0 for the number 0."""
-    number = np.arange(1 << 16)
+    number = arange(1 << 16)
     return (np.frexp((number & -number).astype(np.float32))[1] - 1).clip(min=0).astype(np.uint8)

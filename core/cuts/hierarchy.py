@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import frozen, inverse
+from ..arrays.int64 import cumsum, full
 from ..arrays.pairs import distinct_pairs
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class Dendrogram:
     @cached_property
     def _gap_rows(self) -> list[np.ndarray]:
         """Row that joins the sets left and right of each gap between places, and its maxima over 2, 4, 8 ... gaps."""
-        gaps = np.full(max(len(self.order) - 1, 1), np.iinfo(np.int64).max)
+        gaps = full(max(len(self.order) - 1, 1), np.iinfo(np.int64).max)
         gaps[self.joins[:, 1] - 1] = self.rows
         maxima = [gaps]
         while len(maxima[-1]) > (width := 2 ** (len(maxima) - 1)):
@@ -182,7 +183,7 @@ class Hierarchy:
         hierarchies : list of Hierarchy. Returns a Hierarchy whose candidates follow the order of the list and whose
         merges are sorted by salience. Components never merge.
         """
-        offsets = np.cumsum([0] + [h.n_candidates for h in hierarchies])
+        offsets = cumsum([0] + [h.n_candidates for h in hierarchies])
         none = cls.of(0, [], [])
         merges = np.concatenate([none.merges, *(h.merges + o for h, o in zip(hierarchies, offsets, strict=False))])
         salience = np.concatenate([none.salience, *(h.salience for h in hierarchies)])

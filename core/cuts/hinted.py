@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, renumbered
+from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways
 from ..arrays.ties import on_grid
 from ..mesh.face_graph import FaceGraph
@@ -82,7 +83,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
     cell = components(len(label), *graph.pairs[alike & within].T)[1]
     area, own = np.bincount(cell, graph.area), np.empty(int(cell.max()) + 1, np.int64)
     own[cell] = label
-    kept = (area >= least) | is_last_of_each(own, area, -np.arange(len(area)), count=int(label.max()) + 1)
+    kept = (area >= least) | is_last_of_each(own, area, -arange(len(area)), count=int(label.max()) + 1)
     cell = np.where(kept[cell], cell, -1)
     for chosen in (alike, within):
         cell = spread(cell, *both_ways(graph.pairs[chosen]).T)

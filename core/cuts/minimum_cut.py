@@ -16,6 +16,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
 from ..arrays.indexing import place_among
+from ..arrays.int64 import full
 from ..arrays.pairs import both_ways, symmetric_matrix
 from ..mesh.labels import label_boundaries, spread
 from ..mesh.triangles import TriMesh
@@ -196,8 +197,8 @@ def _minimum_cut(
     capacity = np.maximum(np.rint(cost / cost.mean() * UNITS), 1.0)
     endless = float(2**30)  # what no cut is to go through; SciPy takes numbers of 32 bits
     source, sink = n, n + 1
-    rows = np.concatenate([a, b, np.full(is_source.sum(), source), held[~is_source]])
-    columns = np.concatenate([b, a, held[is_source], np.full((~is_source).sum(), sink)])
+    rows = np.concatenate([a, b, full(is_source.sum(), source), held[~is_source]])
+    columns = np.concatenate([b, a, held[is_source], full((~is_source).sum(), sink)])
     values = np.concatenate([capacity, capacity, np.full(len(held), endless)])
     graph = coo_array((np.minimum(values, endless).astype(np.int32), (rows, columns)),
                       shape=(n + 2, n + 2)).tocsr()

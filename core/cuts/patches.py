@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays.components import roots
 from ..arrays.indexing import last_of_each, renumbered
+from ..arrays.int64 import arange
 from ..arrays.nearest_seeds import nearest_seeds
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.ties import first_largest, rounded, whole_steps
@@ -60,15 +61,15 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
     seeds = _first_seeds(mesh, max(count // 3, 1))
     # A piece without a seed gets one: the first of its largest faces.
     n_pieces, piece = mesh.face_components
-    without = np.setdiff1d(np.arange(n_pieces), piece[seeds])
+    without = np.setdiff1d(arange(n_pieces), piece[seeds])
     seeds = np.concatenate([seeds, last_of_each(
-        piece, mesh.face_area, -np.arange(mesh.n_faces), count=n_pieces)[without]])
-    added = np.diff(np.linspace(len(seeds), max(count, len(seeds)), ROUNDS + 1).astype(int))
+        piece, mesh.face_area, -arange(mesh.n_faces), count=n_pieces)[without]])
+    added = np.diff(np.linspace(len(seeds), max(count, len(seeds)), ROUNDS + 1).astype(np.int64))
     for more in [*added, 0]:
         distance, cell = nearest_seeds(distances, seeds)
         # In each of the widest cells, the face farthest from the seed becomes a seed.
         numbers, cell_number = renumbered(cell)
-        farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
+        farthest = last_of_each(cell_number, distance, -arange(len(cell)), count=len(numbers))
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
         seeds = np.concatenate([seeds, np.setdiff1d(widest, seeds)])
     return absorb_small(mesh, FaceGraph.of(mesh).regions(cell)[1], SMALLEST)
@@ -94,11 +95,11 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.nda
     while True:
         area = rounded(np.bincount(label, mesh.face_area) / mesh.area)
         goal = longest_neighbor(*label_boundaries(label, mesh.edges.pairs, mesh.pair_length), len(area))
-        goal = np.where(goal >= 0, goal, np.arange(len(area)))
+        goal = np.where(goal >= 0, goal, arange(len(area)))
         # A patch joins larger patches only, so that two patches never join each other.
-        larger = (area[goal] > area) | ((area[goal] == area) & (goal > np.arange(len(area))))
-        goal = np.where((area < least_share) & larger, goal, np.arange(len(area)))
-        if (goal == np.arange(len(area))).all():
+        larger = (area[goal] > area) | ((area[goal] == area) & (goal > arange(len(area))))
+        goal = np.where((area < least_share) & larger, goal, arange(len(area)))
+        if (goal == arange(len(area))).all():
             return label
         label = renumbered(roots(goal)[label])[1]
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.components import components
+from ..arrays.int64 import arange, full
 from ..arrays.nearest import nearest, nearest_larger, nearest_to_middle, search_tree
 from ..arrays.ties import TIE
 from ..arrays.vectors import distances_between, middles_of_each
@@ -51,13 +52,13 @@ def find_swarms(area: np.ndarray, center: np.ndarray, extent: np.ndarray, larges
     swarm : (q,) int64
         Number of the swarm that each piece is in; -1 for none.
     """
-    swarm = np.full(len(area), -1)
+    swarm = full(len(area), -1)
     small = np.flatnonzero(_are_small(area, largest))
     if len(small) < LEAST:
         return swarm
     size, center, extent = np.sqrt(area[small]), center[small], extent[small]
     _, near = nearest(search_tree(center), center, list(range(1, min(AROUND + 1, len(small)) + 1)))
-    a, b = np.repeat(np.arange(len(small)), near.shape[1]), near.ravel()
+    a, b = np.repeat(arange(len(small)), near.shape[1]), near.ravel()
     less, more = np.minimum(size[a], size[b]), np.maximum(size[a], size[b])
     apart = distances_between(center, a, b)
     unlike = np.abs(np.log((extent[a] + THIN) / (extent[b] + THIN))).max(axis=1)
@@ -103,7 +104,7 @@ def joined_swarms(candidates: FaceCandidates, mesh: TriMesh, polygon: np.ndarray
         return candidates
     face = polygon[nearest_to_middle(of_triangle, mesh.face_centroids, center)[links]]
     hierarchy, label = candidates.hierarchy, candidates.label
-    of_candidate = np.full(hierarchy.n_candidates, -1)
+    of_candidate = full(hierarchy.n_candidates, -1)
     of_candidate[label] = swarm[piece]
     within = (of_candidate[hierarchy.merges] >= 0).all(axis=1)
     within &= of_candidate[hierarchy.merges[:, 0]] == of_candidate[hierarchy.merges[:, 1]]
@@ -147,7 +148,7 @@ def _standing_alone(part: np.ndarray, piece: np.ndarray, swarm: np.ndarray) -> n
     part, piece : (p,) int64, of each face. swarm : (q,) int64.
     """
     mine = swarm[piece]
-    own = np.full(int(part.max()) + 1, -1)
+    own = full(int(part.max()) + 1, -1)
     own[part] = mine
     mixed = np.zeros(len(own), bool)
     mixed[part[mine != own[part]]] = True

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import expanded, last_of_each, place_among, ranges
+from ..arrays.int64 import arange, cumsum
 from ..arrays.pairs import distinct_pairs
 
 MAX_LINKS = 100_000  # pairs of slab pieces that are looked at at once, of which each takes some 300 bytes
@@ -71,12 +72,12 @@ def joined_by_faces(
     n_links = np.bincount(cell, bridges.n_slabs, len(cells)).astype(np.int64)
     order = np.argsort(cell, kind="stable")
     count = np.bincount(cell, minlength=len(cells))
-    first = np.cumsum(count) - count
+    first = cumsum(count) - count
 
     def pieces(some: np.ndarray) -> np.ndarray:
         return bridges.pieces(element_piece, order[ranges(first[some], count[some])])
 
-    chosen = np.arange(len(cells))
+    chosen = arange(len(cells))
     if n_links.sum() > MAX_LINKS:
         chosen = _heaviest_forest(
             cells, n_links, lambda some: _Runs.of(pieces(some), contour_pieces, loose_part).weight)
@@ -142,7 +143,7 @@ class _Runs:
         ends = np.empty((n_runs, 2), np.int64)
         ends[run] = loose_part[pairs]
         cells, cell = distinct_pairs(*ends.T)
-        best = last_of_each(cell, weight, -np.arange(n_runs), count=len(cells))
+        best = last_of_each(cell, weight, -arange(n_runs), count=len(cells))
         return cls(pairs, run, contours, between[:, 0], cells, best, weight[best])
 
 
@@ -157,7 +158,7 @@ def _forest(cells: np.ndarray, weight: np.ndarray) -> np.ndarray:
 
     # Distinct ranks, so that the tree does not depend on how ties are broken.
     rank = np.empty(len(cells))
-    rank[np.argsort(-weight, kind="stable")] = np.arange(1, len(cells) + 1)
+    rank[np.argsort(-weight, kind="stable")] = arange(1, len(cells) + 1)
     n_parts = int(cells.max(initial=-1)) + 1
     tree = minimum_spanning_tree(
         coo_array((rank, tuple(cells.T.astype(np.int32))), shape=(n_parts, n_parts)).tocsr())
@@ -192,7 +193,7 @@ def _heaviest_forest(
 
 def _blocks(rows: np.ndarray, size: np.ndarray) -> Iterator[np.ndarray]:
     """Divide rows, (c,) int64, into blocks of MAX_LINKS at the most, or of one row. size : (n,) int64, of each row."""
-    total, begin = np.append(0, np.cumsum(size[rows])), 0
+    total, begin = np.append(0, cumsum(size[rows])), 0
     while begin < len(rows):
         end = max(begin + 1, int(np.searchsorted(total, total[begin] + MAX_LINKS, side="right")) - 1)
         yield rows[begin:end]

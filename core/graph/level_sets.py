@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, ends_run, expanded, sums_by
+from ..arrays.int64 import arange, cumsum
 from ..arrays.vectors import lengths
 from ..mesh.triangles import TriMesh, vote_weights
 from .bridged_levels import FaceBridges, joined_by_faces
@@ -89,7 +90,7 @@ class LevelSets:
     @cached_property
     def face_first_element(self) -> np.ndarray:
         """(m,) int64, first element of each face."""
-        return np.searchsorted(self.element_face, np.arange(self.mesh.n_faces))
+        return np.searchsorted(self.element_face, arange(self.mesh.n_faces))
 
     @cached_property
     def vertex_piece(self) -> np.ndarray:
@@ -208,7 +209,7 @@ def uniform_levels(n_slabs: int) -> np.ndarray:
 
     n_slabs : int, 1 or more. Returns the levels between the slabs, (n_slabs - 1,) float64, rising.
     """
-    return np.arange(1, n_slabs) / n_slabs
+    return arange(1, n_slabs) / n_slabs
 
 
 def cut_at_levels(
@@ -242,8 +243,8 @@ def cut_at_levels(
     element_face, element_slab = expanded(lowest, n_levels + 1)
     segment_face, segment_level = expanded(lowest, n_levels)
     # What to add to a slab to get the element of a face there, and to a level to get its segment.
-    segment_base = np.cumsum(n_levels) - n_levels - lowest
-    element_base = segment_base + np.arange(mesh.n_faces)
+    segment_base = cumsum(n_levels) - n_levels - lowest
+    element_base = segment_base + arange(mesh.n_faces)
     ends = [slab.take(end.take(mesh.edges.pair_edge)) for end in mesh.edges.vertices.T]
     low, across = np.minimum(*ends), np.abs(ends[0] - ends[1])
     n_pieces, element_piece = _joined(mesh.edges.pairs, low, across + 1, element_base, len(element_face))

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import last_of_each, place_among
+from ..arrays.int64 import arange, cumsum, full
 from ..arrays.vectors import middles_of_each
 from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .level_sets import LevelSets
@@ -88,7 +89,7 @@ class ReebGraph:
     @cached_property
     def point_arc(self) -> np.ndarray:
         """(r,) int64, arc of each center point."""
-        return np.repeat(np.arange(self.n_arcs), np.diff(self.arc_points))
+        return np.repeat(arange(self.n_arcs), np.diff(self.arc_points))
 
     @classmethod
     def empty(cls) -> ReebGraph:
@@ -105,8 +106,8 @@ class ReebGraph:
         the order of the list.
         """
         graphs = [cls.empty(), *graphs]
-        nodes = np.cumsum([0] + [g.n_nodes for g in graphs])
-        points = np.cumsum([0] + [len(g.point_value) for g in graphs])
+        nodes = cumsum([0] + [g.n_nodes for g in graphs])
+        points = cumsum([0] + [len(g.point_value) for g in graphs])
         arrays = {
             name: np.concatenate([getattr(g, name) for g in graphs])
             for name in ("node_kind", "node_value", "node_position", "point_position",
@@ -162,7 +163,7 @@ class ReebTopology:
         kept = np.flatnonzero(self.contour_arc >= 0)
         order = np.lexsort((sets.contour_level[kept], self.contour_arc[kept]))
         contours = kept[order]
-        return contours, np.searchsorted(self.contour_arc[contours], np.arange(len(self.arcs) + 1))
+        return contours, np.searchsorted(self.contour_arc[contours], arange(len(self.arcs) + 1))
 
 
 def reeb_topology(sets: LevelSets) -> ReebTopology:
@@ -187,12 +188,12 @@ def reeb_topology(sets: LevelSets) -> ReebTopology:
     regular = (n_below == 1) & (n_above == 1)
     below = np.zeros(sets.n_pieces, np.int64)
     above = np.zeros(sets.n_pieces, np.int64)
-    below[upper] = np.arange(sets.n_contours)
-    above[lower] = np.arange(sets.n_contours)
+    below[upper] = arange(sets.n_contours)
+    above[lower] = arange(sets.n_contours)
     n_arcs, contour_arc = components(sets.n_contours, below[regular], above[regular])
 
     piece_node = place_among(np.flatnonzero(~regular), sets.n_pieces)
-    piece_arc = np.full(sets.n_pieces, -1)
+    piece_arc = full(sets.n_pieces, -1)
     piece_arc[regular] = contour_arc[below[regular]]
     arcs = np.empty((n_arcs, 2), np.int64)
     bottom, top = piece_node[lower] >= 0, piece_node[upper] >= 0

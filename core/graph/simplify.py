@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays.components import roots
 from ..arrays.indexing import place_among
+from ..arrays.int64 import arange, full
 from ..field.agd import ScalarField
 from .level_sets import LevelSets
 from .reeb import ReebTopology
@@ -212,7 +213,7 @@ class _WorkGraph:
         n = len(self.at_node)
         root = roots(np.array(self.parent, np.int64))
         owner = root[self.piece_owner]
-        keeps = root == np.arange(len(root))
+        keeps = root == arange(len(root))
         node_id = place_among(np.flatnonzero(keeps[:n]), n)
         kept_arcs = np.array([arc is not None for arc in self.arcs], bool)
         arc_id = place_among(np.flatnonzero(kept_arcs), len(kept_arcs))
@@ -224,7 +225,7 @@ class _WorkGraph:
         return ReebTopology(
             piece_node=np.where(at_node, node_id[np.minimum(owner, n - 1)], -1),
             piece_arc=np.where(at_node, -1, arc_id[np.maximum(owner - n, 0)]) if len(arc_id)
-            else np.full(len(owner), -1),
+            else full(len(owner), -1),
             contour_arc=contour_arc,
             arcs=node_id[np.array(arcs, np.int64).reshape(-1, 2)],
             n_nodes=int(keeps[:n].sum()))

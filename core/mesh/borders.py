@@ -7,6 +7,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import first_at_place
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import repeated_in
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
@@ -58,14 +59,14 @@ def _joined_nearby(
     if not len(row):
         return joined
     count, group = components(len(place), row, near[row, column])
-    of_vertex = np.full(len(vertices), -1)
+    of_vertex = full(len(vertices), -1)
     of_vertex[place] = group
     corner = of_vertex[joined[corner_vertex]]
     here = corner >= 0  # all others are no matter of this
     kept = np.ones(count, bool)
     kept[repeated_in(corner_face[here], corner[here], count=count)] = False
-    first = np.full(count, len(vertices))
+    first = full(count, len(vertices))
     np.minimum.at(first, group, place)
-    goal = np.arange(len(vertices))
+    goal = arange(len(vertices))
     goal[place] = np.where(kept[group], first[group], place)
     return goal[joined]

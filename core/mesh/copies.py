@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.indexing import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
+from ..arrays.int64 import arange, cumsum
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import TriMesh, vertex_components
 
@@ -68,7 +69,7 @@ class Copies:
         """
         order = stable_order(self.original)
         count = np.bincount(self.original)
-        first = np.cumsum(count) - count
+        first = cumsum(count) - count
         rank = inverse(order) - first[self.original]
         image = twin[self.original]
         return np.where(image >= 0, order[first[image] + np.minimum(rank, count[image] - 1)], -1)
@@ -98,8 +99,8 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     _, first, group, count = np.unique(number, return_index=True, return_inverse=True, return_counts=True)
     is_copied = (number > 0) & (count[group.reshape(-1)] > 1)
     is_copied &= _mostly_copied(given, place, is_copied)
-    original = np.where(is_copied, first[group.reshape(-1)], np.arange(len(number)))
-    is_kept = original == np.arange(len(number))
+    original = np.where(is_copied, first[group.reshape(-1)], arange(len(number)))
+    is_kept = original == arange(len(number))
     if is_kept.all() or is_kept.sum() < MIN_FACES:
         return None
     kept = np.zeros(mesh.n_vertices, bool)
@@ -113,7 +114,7 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     kept[mesh.faces[is_kept[given.polygon]]] = True
     vertex = np.flatnonzero(kept | ~mesh.used)
     home[vertex] = vertex
-    return Copies(np.flatnonzero(is_kept), (np.cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home))
+    return Copies(np.flatnonzero(is_kept), (cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home))
 
 
 def _first_kept(place: np.ndarray, kept: np.ndarray) -> np.ndarray:
@@ -121,7 +122,7 @@ def _first_kept(place: np.ndarray, kept: np.ndarray) -> np.ndarray:
     order = np.lexsort((~kept, place))
     new = begins_run(place[order])
     first = np.empty(len(place), np.int64)
-    first[order] = order[new][np.cumsum(new) - 1]
+    first[order] = order[new][cumsum(new) - 1]
     return first
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.indexing import begins_run, ends_run, renumbered, stable_order, sums_by
+from ..arrays.int64 import arange, cumsum
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import cross, lengths
 from .borders import joined_borders
@@ -50,7 +51,7 @@ class CornerTable:
         """
         start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
         edges, corner_edge = distinct_pairs(np.minimum(start, end), np.maximum(start, end))
-        face = np.repeat(np.arange(len(faces)), faces.shape[1])
+        face = np.repeat(arange(len(faces)), faces.shape[1])
         return cls(np.asarray(vertices, np.float64), edges, start, corner_edge, face, len(faces))
 
     def within(self, mask: np.ndarray) -> CornerTable:
@@ -77,13 +78,13 @@ class CornerTable:
         """
         single = self.n_edge_faces == 1
         if not single.any():
-            return self, np.arange(len(self.vertices))
+            return self, arange(len(self.vertices))
         first = joined_borders(self.vertices, np.unique(self.edges[single]), self.corner_vertex, self.corner_face)
         return self.with_joined(first), first
 
     def with_joined(self, first: np.ndarray) -> CornerTable:
         """The table that ``joined`` returns. first : (n,) int64, the vertex that each is joined to."""
-        moved = first != np.arange(len(first))
+        moved = first != arange(len(first))
         if not moved.any():
             return self
         edges, number = distinct_pairs(*np.sort(first[self.edges], axis=1).T)
@@ -145,7 +146,7 @@ class CornerTable:
             Face of each triangle, rising.
         """
         new = begins_run(self.corner_face)
-        start = np.flatnonzero(new)[np.cumsum(new) - 1]
+        start = np.flatnonzero(new)[cumsum(new) - 1]
         middle = np.flatnonzero(~new & ~ends_run(self.corner_face))
         corners = np.stack([start[middle], middle, middle + 1], axis=1)
         return self.corner_vertex[corners], self.corner_face[middle]
@@ -191,7 +192,7 @@ class CornerTable:
 
 def next_of_owner(owner: np.ndarray) -> np.ndarray:
     """Index of the next element of the same owner, in a circle, (c,) int64; the elements of an owner are in a row."""
-    following = np.arange(1, len(owner) + 1)
+    following = arange(1, len(owner) + 1)
     following[ends_run(owner)] = np.flatnonzero(begins_run(owner))
     return following
 

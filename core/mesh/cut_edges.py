@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.int64 import arange
 from .corners import CornerTable, edge_labels
 
 
@@ -37,5 +38,5 @@ class CutEdges:
 
     def around(self, inside: np.ndarray) -> np.ndarray:
         """Edges between some parts, (count,) bool, and all others; (b,) int64, rising."""
-        low, high = edge_labels(self.place, np.arange(len(self.place)), inside[self.label], len(self.edges))
+        low, high = edge_labels(self.place, arange(len(self.place)), inside[self.label], len(self.edges))
         return self.edges[low < high]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.indexing import expanded, sums_by
+from ..arrays.int64 import arange, cumsum, full
 from ..arrays.ties import rounded
 from ..arrays.vectors import cross, cross_in_plane, lengths, row_products, unit
 
@@ -33,7 +34,7 @@ def fans(corner: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     polygon : (m,) int64
         Of each triangle, 0..p-1, rising.
     """
-    start = np.cumsum(sizes) - sizes
+    start = cumsum(sizes) - sizes
     polygon, at = expanded(start, sizes - 2)
     return corner[np.stack([start[polygon], at + 1, at + 2], axis=1)], polygon
 
@@ -70,23 +71,23 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
         As many of each polygon, in the same rows. Polygons that are not folded, those that cross themselves so that
         there is no ear, and those of more than MOST_CORNERS keep their fans.
     """
-    start = np.cumsum(sizes - 2) - (sizes - 2)  # first triangle of each polygon
+    start = cumsum(sizes - 2) - (sizes - 2)  # first triangle of each polygon
     folded = _folded(vertices, triangles, sizes)
     folded = folded[sizes[folded] <= MOST_CORNERS]
     if not len(folded):
         return triangles
     triangles = triangles.copy()
     for size in np.unique(sizes[folded]).tolist():
-        rows = start[folded[sizes[folded] == size], None] + np.arange(size - 2)
+        rows = start[folded[sizes[folded] == size], None] + arange(size - 2)
         corners = np.concatenate([triangles[rows[:, 0], :2], triangles[rows, 2]], axis=1)
         # Rounding, too, is to be the same whichever corner a file begins with.
         rank = _ranks(vertices, triangles, corners)
-        turn = (rank.argmin(axis=1)[:, None] + np.arange(size)) % size
+        turn = (rank.argmin(axis=1)[:, None] + arange(size)) % size
         corners, rank = (np.take_along_axis(values, turn, axis=1) for values in (corners, rank))
         place, there = _in_plane(vertices[corners])
         rows, corners = rows[there], corners[there]
         order, whole = _ears(place[there], rank[there])
-        triangles[rows[whole]] = corners[np.arange(len(corners))[:, None, None], order][whole]
+        triangles[rows[whole]] = corners[arange(len(corners))[:, None, None], order][whole]
     return triangles
 
 
@@ -95,7 +96,7 @@ def _folded(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> n
     several = np.flatnonzero(sizes > 3)
     if not len(several):
         return several
-    polygon = np.repeat(np.arange(len(several)), sizes[several] - 2)
+    polygon = np.repeat(arange(len(several)), sizes[several] - 2)
     if len(several) < len(sizes):
         triangles = triangles[np.repeat(sizes > 3, sizes - 2)]
     p, q, r = (vertices[column] for column in triangles.T)
@@ -142,10 +143,10 @@ def _ears(place: np.ndarray, rank: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     bool.
     """
     n_faces, size, _ = place.shape
-    face = np.arange(n_faces)
-    before, after = (np.tile(np.roll(np.arange(size), step), (n_faces, 1)) for step in (1, -1))
+    face = arange(n_faces)
+    before, after = (np.tile(np.roll(arange(size), step), (n_faces, 1)) for step in (1, -1))
     left = np.ones((n_faces, size), bool)
-    cost = np.stack([_ear_cost(place, left, before[:, k], np.full(n_faces, k), after[:, k]) for k in range(size)], 1)
+    cost = np.stack([_ear_cost(place, left, before[:, k], full(n_faces, k), after[:, k]) for k in range(size)], 1)
     order, whole = np.empty((n_faces, size - 2, 3), np.int64), np.ones(n_faces, bool)
     for step in range(size - 2):
         ear = np.where(cost == cost.min(axis=1, keepdims=True), rank, size).argmin(axis=1)
@@ -164,7 +165,7 @@ def _ear_cost(place: np.ndarray, left: np.ndarray, first: np.ndarray, ear: np.nd
 
     left : (f, k) bool, corners that are there still. first, ear, last : (f,) int64, the corner between its neighbors.
     """
-    a, b, c = (place[np.arange(len(place)), corner][:, None] for corner in (first, ear, last))
+    a, b, c = (place[arange(len(place)), corner][:, None] for corner in (first, ear, last))
     area = _turn(a, b, c)[:, 0]
     inside = left & (_turn(a, b, place) >= 0) & (_turn(b, c, place) >= 0) & (_turn(c, a, place) >= 0)
     for end in (a, b, c):  # a corner at the same place, as where a hole is tied to the outside, is none inside

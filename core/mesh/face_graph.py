@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, inverse, place_among, sums_by
+from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways
 from .labels import label_boundaries, longest_neighbor, majority, spread
 from .triangles import TriMesh, vote_weights
@@ -128,7 +129,7 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
         goal = _goal_of_strays(touching, length, area, stray)
         if not (goal >= 0).any():
             return name[part]
-        before = name[np.where(goal >= 0, goal, np.arange(len(name)))]
+        before = name[np.where(goal >= 0, goal, arange(len(name)))]
         same = before[touching[:, 0]] == before[touching[:, 1]]
         count, union = components(len(name), *touching[same].T)
         name = np.empty(count, np.int64)

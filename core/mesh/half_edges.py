@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import inverse, place_among
+from ..arrays.int64 import arange
 from .triangles import TriMesh, next_side
 
 
@@ -42,7 +43,7 @@ class HalfEdges:
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray) -> HalfEdges:
         """Make the half-edges of polygons from their triangles; polygon : (m,) int64, that of each triangle."""
-        side = np.arange(3 * mesh.n_faces)
+        side = arange(3 * mesh.n_faces)
         following = next_side(side)
         opposite = mesh.edges.opposite_sides((mesh.edges.n_faces[mesh.edges.pair_edge] == 2) & ~mesh.same_way)
         of_side = np.repeat(polygon, 3)
@@ -78,6 +79,6 @@ class HalfEdges:
     def piece(self) -> np.ndarray:
         """(h,) int64, connected piece of the mesh in which each lies, all numbers in use."""
         joined = np.flatnonzero(self.opposite >= 0)
-        here, there = np.arange(self.count), self.following
+        here, there = arange(self.count), self.following
         return components(self.count, np.concatenate([here, joined]),
                           np.concatenate([there, self.opposite[joined]]))[1]

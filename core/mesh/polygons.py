@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.indexing import frozen
+from ..arrays.int64 import arange
 from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
@@ -109,7 +110,7 @@ class PolygonMesh:
                     "The mesh has only {n} of the {least} faces that the smallest solid has. "
                     "Choose a larger mesh.",
                     n=self.n_polygons, least=MIN_FACES),
-                faces=np.arange(self.n_polygons),
+                faces=arange(self.n_polygons),
             )
         if self.exponent > LARGEST_EXPONENT:
             raise MeshError(Sentence("The mesh is too large to be measured. Check the scale of the object."))

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, frozen, renumbered, sealed, stable_order, sums_by, taken
+from ..arrays.int64 import cumsum, full
 from ..arrays.vectors import BLOCK, cross, distances_between, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
@@ -373,7 +374,7 @@ class EdgeTable:
         first_of_edge, together = np.flatnonzero(begins), np.flatnonzero(~begins[1:])
         vertices = np.stack([low[first_of_edge], high[first_of_edge]], axis=1)
         del low, high  # of a million vertices, each array is 50 MB
-        edge_sorted = np.cumsum(begins) - 1
+        edge_sorted = cumsum(begins) - 1
         edge = np.empty(len(order), np.int64)
         edge[order] = edge_sorted
         sides, pair_edge = np.stack([order[together], order[together + 1]], axis=1), edge_sorted[together]
@@ -390,7 +391,7 @@ class EdgeTable:
 
         chosen : (p,) bool, pairs at edges of two faces.
         """
-        opposite = np.full(self.face_edges.size, -1)
+        opposite = full(self.face_edges.size, -1)
         first, second = self.pair_sides[chosen].T
         opposite[first], opposite[second] = second, first
         return opposite

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays.indexing import is_last_of_each, renumbered
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
@@ -200,7 +201,7 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
     if kept.all():
         return np.empty((0, 2), np.int64)
     kept_triangle = kept[given.polygon]
-    at_vertex = np.full(given.triangles.n_vertices, -1)
+    at_vertex = full(given.triangles.n_vertices, -1)
     at_vertex[given.triangles.faces[kept_triangle]] = given.polygon[kept_triangle][:, None]
     pairs = given.polygon[given.triangles.edges.pairs]
     by_corner = np.stack([np.repeat(given.polygon[~kept_triangle], 3),
@@ -265,12 +266,12 @@ def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceC
     solid[piece[working.polygon]] = True
     name = np.empty(count, np.int64)
     name[piece] = label
-    main = is_last_of_each(name, solid, np.bincount(piece, graph.area, count), -np.arange(count),
+    main = is_last_of_each(name, solid, np.bincount(piece, graph.area, count), -arange(count),
                            count=hierarchy.n_candidates)
     apart = np.flatnonzero(solid & ~main)
     if not len(apart):
         return candidates
-    merges = np.stack([name[apart], hierarchy.n_candidates + np.arange(len(apart))], axis=1)
+    merges = np.stack([name[apart], hierarchy.n_candidates + arange(len(apart))], axis=1)
     name[apart] = merges[:, 1]
     finer = Hierarchy.of(hierarchy.n_candidates + len(apart), np.concatenate([merges, hierarchy.merges]),
                          np.concatenate([np.zeros(len(apart)), hierarchy.salience]))

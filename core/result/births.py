@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.int64 import arange
 from ..arrays.ties import TIE, first_largest
 from .decomposition import Decomposition
 from .splits import Splits
@@ -100,7 +101,7 @@ class _AreaVote:
         """previous_number : (c,) int64, 0 for none."""
         known = np.unique(previous_number[previous_number > 0])
         code = np.where(previous_number > 0, np.searchsorted(known, previous_number), len(known))
-        free = np.arange(len(known) + 1) < len(known)
+        free = arange(len(known) + 1) < len(known)
         return cls(known, code, area, np.bincount(code, area, len(free)), free, set(known.tolist()))
 
     @property
@@ -177,5 +178,5 @@ def make_room(
         number[candidate] = last = free
     # A candidate outside a pinned part that carries the number of this part gets a number that is born last.
     robbed = np.isin(number, pinned[pinned > 0]) & (number != pinned)
-    number[robbed] = max(number.max(), pinned.max()) + 1 + np.arange(robbed.sum())
+    number[robbed] = max(number.max(), pinned.max()) + 1 + arange(robbed.sum())
     return np.where(pinned > 0, pinned, number), np.argsort(order[np.argsort(robbed[order], kind="stable")])

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays.indexing import inverse, renumbered, sums_by
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs
 from ..arrays.ties import first_largest
 from ..cuts.hierarchy import Hierarchy
@@ -130,7 +131,7 @@ class Decomposition:
     @cached_property
     def _face_order(self) -> np.ndarray:
         """(c,) float64, mean index of each candidate's faces."""
-        index = np.arange(self.n_faces)
+        index = arange(self.n_faces)
         return np.bincount(self.candidates, index) / np.bincount(self.candidates)
 
     @property
@@ -142,7 +143,7 @@ class Decomposition:
     def candidate_twin(self) -> np.ndarray:
         """(c,) int64, mirror image of each candidate; -1 for none."""
         if not len(self.face_twin):
-            return np.full(self.n_candidates, -1)
+            return full(self.n_candidates, -1)
         image = np.where(self.face_twin >= 0, self.candidates[self.face_twin], -1)
         return majority(self.candidates, image + 1, np.ones(self.n_faces), self.n_candidates) - 1
 
@@ -337,7 +338,7 @@ class Decomposition:
         """
         face, kept = copies.original, copies.polygon
         label = self.candidates[face]
-        lies = np.flatnonzero(kept[face] != np.arange(len(face)))
+        lies = np.flatnonzero(kept[face] != arange(len(face)))
         has_twins = len(self.face_twin) > 0
         note = Sentence("{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.",
                         n=copies.n_copies)

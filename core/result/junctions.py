@@ -18,6 +18,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays.indexing import expanded, stable_order, sums_by
+from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
 from ..mesh.face_graph import FaceGraph
 
@@ -98,7 +99,7 @@ def junctions(label: np.ndarray, sides: FaceSides) -> tuple[np.ndarray, np.ndarr
     for n in np.unique(size[size > 2]).tolist():
         own = rows[size == n].reshape(-1, n, 2)
         sets, which = np.unique(own[:, :, 1], axis=0, return_inverse=True)
-        members.append(np.stack([np.repeat(count + np.arange(len(sets)), n), sets.ravel()], axis=1))
+        members.append(np.stack([np.repeat(count + arange(len(sets)), n), sets.ravel()], axis=1))
         length.append(sums_by(which.reshape(-1), sides.edge_length[own[:, 0, 0]], len(sets)))
         count += len(sets)
     return np.concatenate(members), np.concatenate(length)
@@ -150,6 +151,6 @@ def _miscounted(at: np.ndarray, name: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 def _pairs_within(group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Places of all pairs of members of one group, (k,) each, the first before the second. group : (n,), rising."""
-    place = np.arange(len(group))
+    place = arange(len(group))
     end = np.searchsorted(group, group, side="right")
     return expanded(place + 1, end - place - 1)

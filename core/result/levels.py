@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.int64 import arange
+
 # A number of parts stands out among those from a RATIO-th of it up to RATIO times it.
 RATIO = 1.35
 
@@ -49,12 +51,12 @@ def strong_levels(salience: np.ndarray, n_fewest: int) -> np.ndarray:
     A number stands out where no other number less than RATIO times larger or smaller has a larger fall; of equal falls
     the smaller number counts, and where nothing falls, no number stands out.
     """
-    count = n_fewest + np.arange(len(salience) + 1)
+    count = n_fewest + arange(len(salience) + 1)
     fall = np.concatenate([[1.0], salience]) - np.concatenate([salience, [0.0]])
     fall[0] = 0.0  # the first cut is always there to be made
     first = np.searchsorted(count, count / RATIO, side="right")
     last = np.searchsorted(count, count * RATIO, side="left")
     best = np.array([start + int(fall[start:end].argmax()) for start, end in zip(first, last, strict=True)])
-    strong = (best == np.arange(len(count))) & (fall > 0.0)
+    strong = (best == arange(len(count))) & (fall > 0.0)
     strong[[0, -1]] = True
     return count[strong]

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.indexing import place_among, stable_order, sums_by
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import ranks
 from .births import area_votes, make_room, number_births
@@ -133,7 +134,7 @@ def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) ->
             numbers[new] = number
             taken.add(number)
     left_over = np.flatnonzero(numbers == 0)
-    free = np.setdiff1d(np.arange(1, count + len(pairs) + len(left_over) + 1), previous_number)
+    free = np.setdiff1d(arange(1, count + len(pairs) + len(left_over) + 1), previous_number)
     numbers[left_over] = free[: len(left_over)]
     return numbers
 
@@ -215,7 +216,7 @@ class Numbering:
         parts : NumberedParts
         """
         part = self.splits.parts(self.splits.n_done(self.decomposition, detail, n_parts))
-        first_born = np.full(part.max() + 1, len(part))
+        first_born = full(part.max() + 1, len(part))
         np.minimum.at(first_born, part, self.birth_order)
         return self.numbered(self.candidate_number[np.argsort(self.birth_order)][first_born][part])
 
@@ -262,7 +263,7 @@ def _number_graph(
     own, born = candidate_number[splits.order], birth_order[splits.order]
     beside = both_ways(np.argsort(splits.order)[decomposition.candidate_pairs])
     beside = beside[stable_order(beside[:, 0])]
-    first = np.searchsorted(beside[:, 0], np.arange(len(own) + 1))
+    first = np.searchsorted(beside[:, 0], arange(len(own) + 1))
     number, found = np.zeros_like(own), []
 
     def known_by(start: int, end: int) -> int:
@@ -273,7 +274,7 @@ def _number_graph(
     def add_neighbors(start: int, end: int) -> None:
         """Note which numbers that of an interval of places touches when it is born."""
         others = np.unique(number[beside[first[start]:first[end], 1]])
-        found.append(np.stack([np.full(len(others), number[start]), others], axis=1)[others != number[start]])
+        found.append(np.stack([full(len(others), number[start]), others], axis=1)[others != number[start]])
 
     for start, end in splits.root_intervals.tolist():
         known_by(start, end)

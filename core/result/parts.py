@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.indexing import largest_of_each, sums_by
+from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
 from ..mesh.labels import majority
 from ..mesh.triangles import vote_weights
@@ -85,14 +86,14 @@ class Parts:
         d = self.decomposition
         image = np.where(d.candidate_twin >= 0, self.candidate_part[d.candidate_twin], -1)
         twin = majority(self.candidate_part, image + 1, vote_weights(d.candidate_area), self.count) - 1
-        return np.where(twin[np.maximum(twin, 0)] == np.arange(self.count), twin, -1)
+        return np.where(twin[np.maximum(twin, 0)] == arange(self.count), twin, -1)
 
     @cached_property
     def side(self) -> np.ndarray:
         """(count,) int64, of a part that has a twin: 1 or -1 as its faces, see ``face_side``; else 0."""
         side = np.bincount(self.candidate_part, self.decomposition.candidate_side, self.count)
         side = np.sign(side).astype(np.int64)
-        apart = (self.twin >= 0) & (self.twin != np.arange(self.count))
+        apart = (self.twin >= 0) & (self.twin != arange(self.count))
         return np.where(apart & (side[self.twin] == -side), side, 0)
 
     @cached_property

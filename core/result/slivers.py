@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import largest_of_each, renumbered
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE
 from ..cuts.face_candidates import FaceCandidates
@@ -43,11 +44,11 @@ def without_slivers(candidates: FaceCandidates) -> FaceCandidates:
     region = components(len(present), *together.T)[1]
     sliver = _are_slivers(np.bincount(place, graph.area), part, region, components(len(present), *touching.T)[1])
     # From here on slivers move as a whole; what they join is one candidate.
-    unit = np.where(sliver, len(present) + region, np.arange(len(present)))
+    unit = np.where(sliver, len(present) + region, arange(len(present)))
     touching, length = label_boundaries(unit, touching, length)
     goal = _goals(touching, length, len(present), len(unit))
     goal = np.where(sliver, goal[region], -1)
-    return replace(candidates, label=present[np.where(goal >= 0, goal, np.arange(len(present)))[place]])
+    return replace(candidates, label=present[np.where(goal >= 0, goal, arange(len(present)))[place]])
 
 
 def _are_slivers(area: np.ndarray, part: np.ndarray, region: np.ndarray, piece: np.ndarray) -> np.ndarray:
@@ -67,6 +68,6 @@ def _goals(touching: np.ndarray, length: np.ndarray, n_candidates: int, n_region
     beside = (first >= n_candidates) & (second < n_candidates)
     sliver, other, length = first[beside] - n_candidates, second[beside], np.tile(length, 2)[beside]
     best = length >= (1 - TIE) * largest_of_each(sliver, length, n_regions)[sliver]
-    goal = np.full(n_regions, -1)
+    goal = full(n_regions, -1)
     goal[sliver[best]] = other[best]
     return np.where(np.bincount(sliver[best], minlength=n_regions) == 1, goal, -1)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.indexing import renumbered
+from ..arrays.int64 import arange, full
 from ..cuts.hierarchy import Dendrogram
 from .decomposition import Decomposition
 
@@ -90,7 +91,7 @@ class Splits:
         n_done : int, number of splits that are done, coarsest first. Returns the part of each candidate, (c,) int64,
         from 0.
         """
-        part = np.repeat(np.arange(self.n_roots), np.diff(self.root_intervals, axis=1)[:, 0])
+        part = np.repeat(arange(self.n_roots), np.diff(self.root_intervals, axis=1)[:, 0])
         for index, (_, middle, end) in enumerate(self.intervals[:n_done].tolist()):
             part[middle:end] = self.n_roots + index
         found = np.empty_like(part)
@@ -106,11 +107,11 @@ def _joins(decomposition: Decomposition, pinned: np.ndarray) -> tuple[np.ndarray
     """
     hierarchy, pairs, merge = decomposition.hierarchy, decomposition.candidate_pairs, decomposition.pair_merge
     if not pinned.any():
-        return hierarchy.merges, np.arange(len(hierarchy.merges))
+        return hierarchy.merges, arange(len(hierarchy.merges))
     free = (pinned[pairs] == 0).all(axis=1) & (merge < len(hierarchy.merges))
     first = np.unique(pinned, return_index=True)[1][renumbered(pinned)[1]]
     in_pinned = np.flatnonzero(pinned)
     pairs = np.concatenate([np.stack([first[in_pinned], in_pinned], axis=1), pairs[free]])
-    merge = np.concatenate([np.full(len(in_pinned), -1), merge[free]])
+    merge = np.concatenate([full(len(in_pinned), -1), merge[free]])
     order = np.argsort(merge, kind="stable")
     return pairs[order], merge[order]

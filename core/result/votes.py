@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.indexing import run_starts, sums_by
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs
 from ..cuts.hierarchy import Hierarchy
 
@@ -59,14 +60,14 @@ class FaceVotes:
         O(r) for each of as many rounds as there are merges within one face, at most.
         """
         tree, (face, place), weight = self._tree, self._cells.T, self._weight
-        winner = np.full(self.n_faces, -1)
+        winner = full(self.n_faces, -1)
         while len(face):
             first = run_starts(face)
             count = np.diff(np.append(first, len(face)))
             # What brings the outermost two candidates together brings all together that lie between them.
             low, high = tree.order[place[first]], tree.order[place[first + count - 1]]
             winner[face[first]] = low  # for good where low and high are one
-            row = np.repeat(np.arange(len(first)), count)
+            row = np.repeat(arange(len(first)), count)
             divided = (low != high)[row]
             face, place, weight, row = (x[divided] for x in (face, place, weight, row))
             right = place >= self._joins(low, high)[row, 1]

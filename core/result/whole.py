@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.indexing import sums_by
+from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
 from ..cuts.hierarchy import Hierarchy
 from ..mesh.corners import CornerTable
@@ -44,7 +45,7 @@ class Whole:
     @property
     def on_plane(self) -> np.ndarray:
         """(n,) bool, which vertices are on the plane."""
-        return self.image == np.arange(len(self.image))
+        return self.image == arange(len(self.image))
 
 
 def whole_of(parts: Parts, table: CornerTable, area: np.ndarray, plane: np.ndarray, nodes: np.ndarray,
@@ -75,15 +76,15 @@ def whole_of(parts: Parts, table: CornerTable, area: np.ndarray, plane: np.ndarr
     meets = _meeting(table, image, parts.labels, parts.count)
     size = np.bincount(parts.labels, area, parts.count)
     beside = np.flatnonzero(meets <= _MEETS * np.sqrt(size))
-    twin = np.arange(parts.count + len(beside))
-    twin[beside], twin[parts.count :] = parts.count + np.arange(len(beside)), beside
+    twin = arange(parts.count + len(beside))
+    twin[beside], twin[parts.count :] = parts.count + arange(len(beside)), beside
     found = _decomposition(parts, twin, image, mirror, (size, meets))
     side = 1 if mirror.heights(table.vertices[table.corner_vertex]).sum() > 0 else -1
     here, there = (np.where(side * mirror.heights(place) >= 0, part, twin[part])
                    for place, part in ((nodes, parts.node_part), (points, parts.point_part)))
     found = replace(found, node_candidate=here, point_candidate=there,
                     face_side=np.repeat([side, -side], len(parts.labels)).astype(np.int8))
-    return Whole(both, image, mirror, Parts(found, np.arange(len(twin))))
+    return Whole(both, image, mirror, Parts(found, arange(len(twin))))
 
 
 def _meeting(table: CornerTable, image: np.ndarray, labels: np.ndarray, count: int) -> np.ndarray:
@@ -102,7 +103,7 @@ def _decomposition(parts: Parts, twin: np.ndarray, image: np.ndarray, mirror: Mi
     """
     area, meets = measures
     labels, count, half = parts.labels, parts.count, parts.decomposition
-    face, beside = np.arange(len(labels)), image >= len(image)
+    face, beside = arange(len(labels)), image >= len(image)
     apart = np.flatnonzero((twin[:count] >= count) & (meets > 0))  # these touch their images
     touching = np.concatenate([parts.cuts, twin[parts.cuts], np.stack([apart, twin[apart]], axis=1)])
     pairs, which = distinct_pairs(*np.sort(touching, axis=1).T)
@@ -111,7 +112,7 @@ def _decomposition(parts: Parts, twin: np.ndarray, image: np.ndarray, mirror: Mi
     of_image = np.where(of_vertex >= 0, twin[of_vertex], -1)[beside]
     return replace(
         half, candidates=np.concatenate([labels, twin[labels]]), vertex_candidates=np.append(of_vertex, of_image),
-        candidate_area=np.where(twin == np.arange(len(twin)), 2.0, 1.0) * area[np.minimum(twin, np.arange(len(twin)))],
+        candidate_area=np.where(twin == arange(len(twin)), 2.0, 1.0) * area[np.minimum(twin, arange(len(twin)))],
         candidate_pairs=pairs, candidate_pair_length=length, hierarchy=Hierarchy.of(len(twin), [], []),
         field=np.append(half.field, half.field[beside]), contacts=np.empty((0, 2), np.int64),
         links=np.empty((0, 2), np.int64), junctions=np.empty((0, 2), np.int64), junction_length=np.empty(0),

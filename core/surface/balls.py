@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..arrays.int64 import arange
 from ..arrays.nearest import nearest
 from ..arrays.vectors import lengths, row_products
 
@@ -40,7 +41,7 @@ def ball_radius(
         At most ``largest``.
     """
     radius = np.full(len(point), largest)
-    active = np.arange(len(point))
+    active = arange(len(point))
     for _ in range(STEPS):
         p, d = point[active], direction[active]
         # A little before the center: of points that are equally far from it, as around the axis of a tube, the one

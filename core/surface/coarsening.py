@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.indexing import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways
 from ..arrays.ties import TIE
 from ..arrays.vectors import distances_between, row_products
@@ -237,7 +238,7 @@ def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray,
     only, until they are about as wide as long; else the way around a cylinder of many sides would zigzag.
     """
     length = distances_between(points, a, b)
-    shortest = np.minimum.reduceat(length, np.searchsorted(a, np.arange(len(points))))
+    shortest = np.minimum.reduceat(length, np.searchsorted(a, arange(len(points))))
     short = length <= (1 + TIE) * SLIM * np.maximum(shortest[a], shortest[b])
     return a[short], b[short]
 
@@ -276,7 +277,7 @@ def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: n
     while open_.any():
         both = np.flatnonzero(open_[a] & open_[b])
         a, b = a[both], b[both]
-        rivals, start = np.full(len(priority), -1), run_starts(a)
+        rivals, start = full(len(priority), -1), run_starts(a)
         if len(start):
             rivals[a[start]] = np.maximum.reduceat(priority[b], start)
         winner = open_ & (priority > rivals)

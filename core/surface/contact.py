@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, last_of_each
+from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE, first_least
 from ..arrays.vectors import weighted_sum
@@ -61,17 +62,17 @@ class SurfacePoints:
         group : (m,) int64. Of each face, 0 or more; the middle of the largest face of each group is always taken.
         """
         face_at = np.empty(mesh.n_vertices, np.int64)
-        face_at[mesh.faces[::-1]] = np.arange(mesh.n_faces)[::-1, None]
+        face_at[mesh.faces[::-1]] = arange(mesh.n_faces)[::-1, None]
         corners = np.sort(mesh.faces, axis=1)  # of equally near ones the first vertex, whichever way the face turns
         offset = np.linalg.norm(mesh.vertices[corners] - mesh.face_centroids[:, None], axis=2)
-        nearest = corners[np.arange(mesh.n_faces), first_least(offset)]
+        nearest = corners[arange(mesh.n_faces), first_least(offset)]
         points = cls(
             np.concatenate([mesh.vertices, mesh.face_centroids]),
-            np.concatenate([face_at, np.arange(mesh.n_faces)]),
-            np.concatenate([np.arange(mesh.n_vertices), nearest]),
+            np.concatenate([face_at, arange(mesh.n_faces)]),
+            np.concatenate([arange(mesh.n_vertices), nearest]),
             np.concatenate([mesh.vertex_area, mesh.face_area]) / 2)
         largest = np.flatnonzero(is_last_of_each(
-            group, mesh.face_area, -np.arange(mesh.n_faces), count=int(group.max()) + 1))
+            group, mesh.face_area, -arange(mesh.n_faces), count=int(group.max()) + 1))
         return points.some(count, mesh.n_vertices + largest)
 
     def some(self, count: int, always: np.ndarray) -> SurfacePoints:
@@ -205,7 +206,7 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     points = SurfacePoints.of(mesh, piece)
     size = diameter(points.position, points.area)
     near = NEAR * size
-    group, kept = np.arange(count), Bridges.none()
+    group, kept = arange(count), Bridges.none()
     if count > CROWD:  # which mostly hang together by what touches, and all that is near would be many times as much
         found = _links(points, piece[points.face], (TOUCH + SLACK) * size, size)
         if components(count, *piece[points.face[found]].T)[0] == 1:
@@ -237,4 +238,4 @@ def _links(points: SurfacePoints, piece: np.ndarray, near: float, size: float) -
     joins = touching | (body[cells[:, 0]] != body[cells[:, 1]])
     chosen = pairs[joins[cell] & (distance <= least[cell] + SLACK * size)]
     vertices, link = distinct_pairs(*np.sort(points.vertex[chosen], axis=1).T)
-    return chosen[last_of_each(link, -np.arange(len(link)), count=len(vertices))]
+    return chosen[last_of_each(link, -arange(len(link)), count=len(vertices))]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.indexing import bounds_of_each, stable_order, sums_by
+from ..arrays.int64 import arange
 from ..arrays.ties import ranks
 from ..arrays.vectors import cross, lengths, row_products
 from ..mesh.triangles import TriMesh, vertex_components
@@ -38,7 +39,7 @@ def outer_first(mesh: TriMesh, polygon: np.ndarray) -> np.ndarray:
     their order, those of each polygon in its own rows.
     """
     two, more = _rows_of(polygon)
-    order, rank = np.arange(mesh.n_faces), _distance_ranks(mesh)
+    order, rank = arange(mesh.n_faces), _distance_ranks(mesh)
     out, place = (of_corner[0] + of_corner[1] + of_corner[2] for of_corner in (rank[mesh.faces.T], mesh.faces.T))
     (a, b), (first, second) = out[two.T], place[two.T]
     turned = two[(a < b) | ((a == b) & (first > second))]
@@ -86,7 +87,7 @@ def _halves(vertices: np.ndarray, pairs: np.ndarray, rank: np.ndarray) -> np.nda
 
 def _begun_at(first: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Corners of triangles, (3, q), beginning with the first, the second or the third of each; first : (q,) int64."""
-    place = np.arange(corners.shape[1])
+    place = arange(corners.shape[1])
     return np.array([corners[(first + k) % 3, place] for k in range(3)])
 
 

@@ -25,6 +25,7 @@ from ..arrays.indexing import (
     sums_by,
     taken,
 )
+from ..arrays.int64 import arange, full
 from ..arrays.ties import DENSE, TIE, ranks
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
@@ -85,7 +86,7 @@ class Ordering:
 
         def mean(of_triangle: np.ndarray) -> np.ndarray:
             """Mean over the area of each polygon, (p, 3), which is the same however it is divided."""
-            if n_polygons == mesh.n_faces and (polygon == np.arange(n_polygons)).all():
+            if n_polygons == mesh.n_faces and (polygon == arange(n_polygons)).all():
                 return of_triangle
             weight = np.where(np.bincount(polygon, mesh.face_area, n_polygons)[polygon] > 0, mesh.face_area, 1.0)
             total = np.bincount(polygon, weight, n_polygons)
@@ -120,7 +121,7 @@ class Ordering:
         if len(self.polygon) < mesh.n_faces:
             outer = outer_first(TriMesh(vertices, faces), polygon[triangle])
             triangle, faces = triangle[outer], faces[outer]
-        turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
+        turn = (faces.argmin(axis=1)[:, None] + arange(3)) % 3
         return TriMesh(vertices, np.take_along_axis(faces, turn, axis=1)), triangle
 
 
@@ -161,7 +162,7 @@ def _places(mesh: TriMesh) -> np.ndarray:
         number = hashed_rows(points)
     in_order = np.sort(number)
     if not (in_order[1:] == in_order[:-1]).any():
-        return np.arange(len(points))
+        return arange(len(points))
     first, place = np.unique(number, return_index=True, return_inverse=True)[1:]
     return inverse(np.argsort(first))[place.reshape(-1)]
 
@@ -178,7 +179,7 @@ def _at_places(mesh: TriMesh, place: np.ndarray) -> TriMesh:
 def _with_split_vertices(ordering: Ordering, place: np.ndarray, given: PolygonMesh) -> Ordering:
     """The order of places, (n,), as one of vertices: those at one place follow each other as their faces do."""
     rank = inverse(ordering.polygon)[given.polygon]
-    first_face = np.full(len(place), given.n_polygons)
+    first_face = full(len(place), given.n_polygons)
     backwards = stable_order(rank)[::-1]
     first_face[given.triangles.faces[backwards]] = rank[backwards, None]  # NumPy keeps the last value of each place
     return replace(ordering, vertex=np.lexsort((first_face, inverse(ordering.vertex)[place])))
@@ -190,7 +191,7 @@ def _by_place(mesh: TriMesh, of_triangle: np.ndarray, n_polygons: int, together:
     count, piece = vertex_components(mesh.faces, mesh.n_vertices)
     of_face = piece[mesh.faces[:, 0]]
     size = np.bincount(of_face)
-    in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
+    in_whole, in_given = inverse(ordering.vertex), arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
     beside = _beside_another(mesh.vertices, piece, count, large) if together else np.zeros(len(large), bool)
     for chosen, by_whole in zip(large.tolist(), beside.tolist(), strict=True):

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import even_steps
+from ..arrays.int64 import arange
 from ..arrays.ties import TIE
 from ..arrays.vectors import lengths, middles_of_each, row_products, weighted_sum
 from ..mesh.copies import Copies
@@ -83,7 +84,7 @@ def of_either_side(mesh: TriMesh, chosen: np.ndarray) -> TriMesh:
     mesh : TriMesh
     """
     two = mesh.edges.n_faces[mesh.edges.pair_edge] == 2  # of more faces at an edge their order would choose two
-    pairs, face = mesh.edges.pairs[two], np.arange(mesh.n_faces)
+    pairs, face = mesh.edges.pairs[two], arange(mesh.n_faces)
     mesh = _turned(mesh, chosen & _look_inwards(mesh, face, mesh.n_faces))  # one by one, where they cannot agree
     mesh = _turned(mesh, chosen & _of_other_sheet(mesh.n_faces, pairs, mesh.same_way[two]))
     count, patch = components(mesh.n_faces, *pairs.T)

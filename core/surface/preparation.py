@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import frozen, inverse, place_among, renumbered, stable_order, taken
+from ..arrays.int64 import arange, cumsum, full
 from ..arrays.pairs import distinct_pairs
 from ..arrays.ties import TIE
 from ..arrays.vectors import distances_between
@@ -119,7 +120,7 @@ class Component:
             mesh, triangle = ordering.sorted(part, polygon)
             source, faces = source[index][ordering.vertex], faces[triangle]
         fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area), MIN_BUDGET // n_bodies)
-        added = np.full(fine.n_vertices - len(source), -1)
+        added = full(fine.n_vertices - len(source), -1)
         return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
                    bridges(fine, connected))
 
@@ -144,7 +145,7 @@ def bodies(working: WorkingMesh, together: bool, loose_part: float) -> list[Comp
     if not together or count == 1:
         chosen = worth_cutting(working, piece, loose_part)
         return [Component.of(working, np.flatnonzero(piece == label), n_bodies=len(chosen)) for label in chosen]
-    every = Component.of(working, np.arange(working.mesh.n_faces), connected=False)
+    every = Component.of(working, arange(working.mesh.n_faces), connected=False)
     at = np.empty(int(working.polygon.max()) + 1, np.int64)
     at[working.polygon] = piece
     n_bodies, body = components(count, *at[every.polygon[every.bridges.faces]].T)
@@ -234,7 +235,7 @@ def split_long_edges(mesh: TriMesh, max_length: float, least_budget: int = MIN_B
     parent : (m',) int64
         Face given in which each face lies.
     """
-    parent = np.arange(mesh.n_faces)
+    parent = arange(mesh.n_faces)
     budget = max(least_budget, MAX_GROWTH * mesh.n_faces)
     while True:
         long = _longest(mesh, max_length, budget - mesh.n_faces)
@@ -250,7 +251,7 @@ def _longest(mesh: TriMesh, max_length: float, most: int) -> np.ndarray:
     if mesh.edges.n_faces[long].sum() <= most:
         return long
     order = np.argsort(-mesh.edge_length, kind="stable")
-    fits = int(np.searchsorted(np.cumsum(mesh.edges.n_faces[order]), most, side="right"))
+    fits = int(np.searchsorted(cumsum(mesh.edges.n_faces[order]), most, side="right"))
     # Edges of one length are split all, or none.
     limit = max(max_length, mesh.edge_length[order[min(fits, len(order) - 1)]])
     return mesh.edge_length > (1 + TIE) * limit
@@ -274,15 +275,15 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
         Face given in which each face lies.
     """
     begin, end = taken(mesh.edges.vertices, marked).T
-    middle = np.full(len(marked), -1)
-    middle[marked] = mesh.n_vertices + np.arange(len(begin))
+    middle = full(len(marked), -1)
+    middle[marked] = mesh.n_vertices + arange(len(begin))
     vertices = np.concatenate([mesh.vertices, (taken(mesh.vertices, begin) + taken(mesh.vertices, end)) / 2])
     mids = middle[mesh.edges.face_edges]
     n_split = (mids >= 0).sum(axis=1)
     # Each face is turned so that its only split edge, or its only whole edge, is the first, or its first vertex.
     odd_one = np.where((n_split == 1)[:, None], mids >= 0, mids < 0)
     first = np.where(n_split == 3, mesh.faces.argmin(axis=1), odd_one.argmax(axis=1))
-    turn = (first[:, None] + np.arange(3)) % 3
+    turn = (first[:, None] + arange(3)) % 3
     a, b, c = np.take_along_axis(mesh.faces, turn, axis=1).T
     ab, bc, ca = np.take_along_axis(mids, turn, axis=1).T
     # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal. If both are equal, and
@@ -313,8 +314,8 @@ def _either(which: np.ndarray, one: tuple[np.ndarray, ...], other: tuple[np.ndar
 def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[Sentence, ...]]:
     """Vertex that each vertex is joined to, (n,) int64, see ``joined_borders``, and a note of how many were joined."""
     border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
-    joined = joined_borders(mesh.vertices, border, mesh.faces.ravel(), np.repeat(np.arange(mesh.n_faces), 3))
-    n_joined = int((joined != np.arange(len(joined))).sum())
+    joined = joined_borders(mesh.vertices, border, mesh.faces.ravel(), np.repeat(arange(mesh.n_faces), 3))
+    n_joined = int((joined != arange(len(joined))).sum())
     if not n_joined:
         return joined, ()
     return joined, (
@@ -329,7 +330,7 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
     corner_vertex = mesh.faces.ravel()
     unsure = ~_has_one_fan(mesh)
     if not unsure.any():
-        return mesh, np.arange(mesh.n_vertices)
+        return mesh, arange(mesh.n_vertices)
     # Of all other vertices all corners are one fan.
     loose = np.flatnonzero(unsure[corner_vertex])
     a, b = place_among(loose, len(corner_vertex))[_joined_corners(mesh)].T
@@ -340,7 +341,7 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
     single = np.flatnonzero(mesh.used & ~unsure)
     source = np.concatenate([single, own])
     order = stable_order(source)
-    number, at = inverse(order), np.full(mesh.n_vertices, -1)
+    number, at = inverse(order), full(mesh.n_vertices, -1)
     at[single] = number[:len(single)]
     faces = at[corner_vertex]
     faces[loose] = number[len(single) + fan]
@@ -367,14 +368,14 @@ def _has_one_fan(mesh: TriMesh) -> np.ndarray:
     known[mesh.edges.vertices[mesh.edges.pair_edge[mesh.same_way]]] = False
     known[mesh.edges.vertices[mesh.edges.n_faces > 2]] = False
     first, second = mesh.edges.pair_sides.T
-    following = np.full(len(corner_vertex), -1)
+    following = full(len(corner_vertex), -1)
     following[first] = next_side(second)
     following[second] = next_side(first)
     begins = np.ones(len(corner_vertex), bool)  # a corner at a border, where a walk has to begin
     begins[following[following >= 0]] = False
     begins = np.flatnonzero(begins)
     start = np.empty(n, np.int64)
-    start[corner_vertex] = np.arange(len(corner_vertex))
+    start[corner_vertex] = arange(len(corner_vertex))
     start[corner_vertex[begins]] = begins
     walking = np.flatnonzero(known)
     at, passed = start[walking], known.astype(np.int64)

@@ -7,6 +7,8 @@ from itertools import product
 
 import numpy as np
 
+from ..arrays.int64 import arange
+
 # Cells of the grid along the longest side: as many as make about one cell for each triangle of the surface of a cube.
 _MOST_CELLS = 128
 # How far in cells the box of a triangle is widened; rays are looked at every half cell.
@@ -46,7 +48,7 @@ def within_reach(points: np.ndarray, triangles: np.ndarray, tried: np.ndarray, s
     first = (np.minimum(np.minimum(*corners[:2]), corners[2]) - _WIDER).astype(np.int32)
     last = (np.maximum(np.maximum(*corners[:2]), corners[2]) + _WIDER).astype(np.int32)
     marked = _boxes(first[tried], last[tried], n + 3) > 0
-    along = np.arange(int(2 * np.sqrt(3) * (n + 2)) + 2) / 2
+    along = arange(int(2 * np.sqrt(3) * (n + 2)) + 2) / 2
     cell = np.floor(start[:, None] + along[:, None] * direction[:, None]).astype(np.int64).reshape(-1, 3)
     cell = cell[((cell >= 0) & (cell < n + 3)).all(axis=1)]
     marked[tuple(cell.T)] = True

@@ -16,6 +16,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu, spsolve
 
 from ..arrays.indexing import spread_evenly, sums_by
+from ..arrays.int64 import arange
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.vectors import cross, row_products, unit
@@ -142,8 +143,8 @@ def inflated(mesh: TriMesh, sheet: np.ndarray) -> Inflated:
     held = _border(mesh)
     # An edge across a narrow limb from border to border is split, so that there is something to inflate.
     across = held[mesh.edges.vertices].all(axis=1) & ~_border_edges(mesh)
-    across &= np.isin(np.arange(len(across)), mesh.edges.face_edges[sheet])
-    source = np.repeat(np.arange(mesh.n_vertices), 2).reshape(-1, 2)
+    across &= np.isin(arange(len(across)), mesh.edges.face_edges[sheet])
+    source = np.repeat(arange(mesh.n_vertices), 2).reshape(-1, 2)
     source = np.concatenate([source, mesh.edges.vertices[across]])
     fine, face_source = split_edges(mesh, across)
     thin = sheet[face_source]
@@ -156,8 +157,8 @@ def inflated(mesh: TriMesh, sheet: np.ndarray) -> Inflated:
     membrane = np.sqrt(_membrane(stiffness, area, within))
     height = np.clip(_ball_height(fine, even, within), LOWEST * membrane, HIGHEST * membrane)
     lift = HEIGHT * height[:, None] * normal
-    back = np.arange(fine.n_vertices)
-    back[within] = fine.n_vertices + np.arange(within.sum())
+    back = arange(fine.n_vertices)
+    back[within] = fine.n_vertices + arange(within.sum())
     vertices = np.concatenate([base + lift, (base - lift)[within]])
     faces = np.concatenate([fine.faces, back[fine.faces[thin][:, ::-1]]])
     return Inflated(TriMesh(vertices, faces), np.concatenate([face_source, face_source[thin]]), fine.n_faces,
@@ -259,5 +260,5 @@ def _outline(mesh: TriMesh, thin: np.ndarray, place: np.ndarray) -> tuple[np.nda
     face, corner = np.nonzero(_border_edges(mesh)[mesh.edges.face_edges] & thin[:, None])
     start, end = place[mesh.faces[face, corner]], place[mesh.faces[face, (corner + 1) % 3]]
     inwards = unit(cross(mesh.face_normals[face], end - start))
-    along = (np.arange(PER_EDGE) + 0.5)[:, None, None] / PER_EDGE
+    along = (arange(PER_EDGE) + 0.5)[:, None, None] / PER_EDGE
     return (start + along * (end - start)).reshape(-1, 3), np.tile(inwards, (PER_EDGE, 1)), start

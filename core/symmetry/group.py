@@ -8,6 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arrays.int64 import arange
+
 
 @dataclass(frozen=True, eq=False)
 class SymmetryGroup:
@@ -30,10 +32,10 @@ class SymmetryGroup:
 
         The bits of an element say in which planes it mirrors: the composition of two is their exclusive or.
         """
-        image = np.arange(twin.shape[1])[None]
+        image = arange(twin.shape[1])[None]
         for mirrored in twin:
             image = np.concatenate([image, np.append(mirrored, -1)[image]])
-        elements = np.arange(len(image))
+        elements = arange(len(image))
         return cls(image, elements[:, None] ^ elements)
 
     @classmethod
@@ -45,7 +47,7 @@ class SymmetryGroup:
 
         generators : (k, p) int64, the image of each face under each. most : upper bound of the number of elements.
         """
-        image = [np.arange(generators.shape[1])]
+        image = [arange(generators.shape[1])]
         known = {image[0].tobytes(): 0}
         for count in range(1, len(generators) + 1):
             for before in image:  # grows while it is walked through
@@ -61,7 +63,7 @@ class SymmetryGroup:
     @property
     def elements(self) -> np.ndarray:
         """(g,) int64, the numbers of all elements."""
-        return np.arange(len(self.image))
+        return arange(len(self.image))
 
     @cached_property
     def inverse(self) -> np.ndarray:

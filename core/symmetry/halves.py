@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
 from ..errors import MeshError
 from ..mesh.arguments import numbers
@@ -94,7 +95,7 @@ def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable
     vertices, image = _with_images(half.vertices, half.corner_vertex, border, mirror)
     first = np.searchsorted(half.corner_face, half.corner_face)
     last = np.searchsorted(half.corner_face, half.corner_face, side="right") - 1
-    back = image[half.corner_vertex[first + last - np.arange(len(first))]]  # the corners of each face in reverse
+    back = image[half.corner_vertex[first + last - arange(len(first))]]  # the corners of each face in reverse
     start = np.concatenate([half.corner_vertex, back])
     face = np.concatenate([half.corner_face, half.corner_face + half.n_faces]).astype(np.int64)
     end = start[next_of_owner(face)]
@@ -115,8 +116,8 @@ def _with_images(vertices: np.ndarray, used: np.ndarray, border: np.ndarray,
     on_plane = at_border & (np.abs(height) <= WELD * np.linalg.norm(np.ptp(vertices[used], axis=0)))
     vertices = np.where(on_plane[:, None], vertices - height[:, None] * mirror.normal, vertices)
     beside = np.flatnonzero(~on_plane)
-    image = np.arange(len(vertices))
-    image[beside] = len(vertices) + np.arange(len(beside))
+    image = arange(len(vertices))
+    image[beside] = len(vertices) + arange(len(beside))
     return np.concatenate([vertices, mirror.mirrored(vertices[beside])]), image
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arrays.int64 import arange, full
 from ..arrays.vectors import inner_products, second_moments
 from ..mesh.labels import majority
 from .plane import MirrorPlane
@@ -123,7 +124,7 @@ class Images:
     @property
     def exact_twins(self) -> np.ndarray:
         """(n_polygons,) int64, the polygon nearest to the image of each; -1 for one without an area."""
-        twin = np.full(self.faces.n_polygons, -1)
+        twin = full(self.faces.n_polygons, -1)
         twin[self.faces.present] = self.faces.present[self._polygons[0]]
         return twin
 
@@ -139,7 +140,7 @@ class Images:
     def _permutes(self) -> bool:
         """Whether all polygons are exact mirror images, and the image of each image is the polygon itself."""
         image, same = self._polygons
-        return bool(same.all()) and np.array_equal(image[image], np.arange(len(image)))
+        return bool(same.all()) and np.array_equal(image[image], arange(len(image)))
 
     @cached_property
     def _local(self) -> MirrorPlane:
@@ -184,6 +185,6 @@ def _across(elements: Elements, normal: np.ndarray) -> np.ndarray:
     for count in range(2, MOST_RAYS + 1):
         moment = (elements.area * seen**count).sum()
         if abs(moment) > UNEVEN * (elements.area * abs(seen) ** count).sum():
-            angle = np.angle(moment) / count + np.pi / 2 + np.arange(count) * np.pi / count
+            angle = np.angle(moment) / count + np.pi / 2 + arange(count) * np.pi / count
             return np.cos(angle)[:, None] * axes[0] + np.sin(angle)[:, None] * axes[1]
     return np.empty((0, 3))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..arrays.int64 import arange
 from ..mesh.labels import majority
 from ..mesh.triangles import TriMesh
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
@@ -97,11 +98,11 @@ class Mirror:
             return self
         planes = (self, *self.across, *meeting)
         twins = np.array([plane.twin for plane in planes])
-        group = SymmetryGroup.generated(np.where(twins < 0, np.arange(len(self.twin)), twins), LARGEST_GROUP)
+        group = SymmetryGroup.generated(np.where(twins < 0, arange(len(self.twin)), twins), LARGEST_GROUP)
         if group is None:
             return self
         # The normal of this plane is the sum of all normals, each with a factor of its own: it is none of the planes.
-        steps = np.modf(np.arange(1, len(planes) + 1) * np.sqrt(2.0))[0] + 0.5
+        steps = np.modf(arange(1, len(planes) + 1) * np.sqrt(2.0))[0] + 0.5
         beside = sum(step * plane.height for step, plane in zip(steps, planes, strict=True))
         return replace(self, group=group, beside=beside)
 
@@ -146,7 +147,7 @@ class Mirror:
         """A plane that is known, and what it does to the small faces of a mesh."""
         if images.faces.mesh is not mesh:
             images = Images(SmallFaces.of(mesh), images.plane)
-        return cls._in(images.plane, images.small, mesh, np.arange(mesh.n_faces))
+        return cls._in(images.plane, images.small, mesh, arange(mesh.n_faces))
 
     @classmethod
     def _in(cls, plane: MirrorPlane, twin: np.ndarray, mesh: TriMesh, polygon: np.ndarray) -> Mirror:
@@ -155,7 +156,7 @@ class Mirror:
         area, beside = np.bincount(polygon, mesh.face_area, n_polygons), plane.heights(mesh.face_centroids)
         height = np.bincount(polygon, mesh.face_area * beside, n_polygons)
         height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)
-        height[twin == np.arange(n_polygons)] = 0.0
+        height[twin == arange(n_polygons)] = 0.0
         clear = np.abs(beside) >= 0.5 * np.abs(beside).max()
         first = float(np.sign(beside[clear.argmax()]))
         return cls(np.append(plane.normal, plane.offset), twin, height, first, share=plane.share)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.int64 import arange
 from ..arrays.vectors import second_moments
 from ..surface.ordering import principal_axes
 from .plane import MirrorPlane, positive_sign
@@ -88,7 +89,7 @@ def _chosen(
 
 def is_exact(polygons: Elements, plane: MirrorPlane) -> bool:
     """Whether some polygons, at equal steps of their number, all have exact images in a plane of their own frame."""
-    image = polygons.chosen(np.arange(0, len(polygons.area), max(len(polygons.area) // SOME, 1))).mirrored(plane)
+    image = polygons.chosen(arange(0, len(polygons.area), max(len(polygons.area) // SOME, 1))).mirrored(plane)
     return bool(polygons.same(image, polygons.nearest(image)[1]).all())
 
 

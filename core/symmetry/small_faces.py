@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays.indexing import even_steps, rounded_order, sums_by, taken
+from ..arrays.int64 import arange
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.vectors import lengths, row_products, weighted_sum
 from ..mesh.triangles import TriMesh
@@ -134,7 +135,7 @@ class SmallFaces:
     @classmethod
     def of(cls, mesh: TriMesh) -> SmallFaces:
         """Each face a polygon of its own."""
-        return cls(mesh, np.arange(mesh.n_faces), mesh.n_faces)
+        return cls(mesh, arange(mesh.n_faces), mesh.n_faces)
 
     @cached_property
     def middle(self) -> np.ndarray:

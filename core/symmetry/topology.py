@@ -17,6 +17,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays.components import components
 from ..arrays.indexing import GOLDEN
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import middles_of_each, weighted_sum
 from ..mesh.half_edges import HalfEdges
@@ -135,7 +136,7 @@ def _paired(forward: np.ndarray, backward: np.ndarray) -> np.ndarray:
     other_color = np.concatenate([[True], np.diff(key >> bits) != 0, [True, True]])
     two = np.flatnonzero(other_color[:-3] & ~other_color[1:-2] & other_color[2:-1])
     one, other = owner[two], owner[two + 1]
-    partner = np.full(count, -1)
+    partner = full(count, -1)
     each = (one < count) & (other >= count)
     partner[one[each]] = other[each] - count
     return partner
@@ -196,7 +197,7 @@ def _log_length(half: HalfEdges) -> np.ndarray:
 
 def _alike(half: HalfEdges, partner: np.ndarray) -> np.ndarray:
     """Images, (h,), that are images of their own, on pieces whose edges are about as long as their images."""
-    partner = np.where((partner >= 0) & (partner[partner] == np.arange(half.count)), partner, -1)
+    partner = np.where((partner >= 0) & (partner[partner] == arange(half.count)), partner, -1)
     has, length = np.flatnonzero(partner >= 0), _log_length(half)
     count = np.bincount(half.piece[has], minlength=int(half.piece.max()) + 1)
     unlike = np.bincount(half.piece[has], np.abs(length[has] - length[partner[has]]), len(count))
@@ -206,11 +207,11 @@ def _alike(half: HalfEdges, partner: np.ndarray) -> np.ndarray:
 def _twins(half: HalfEdges, partner: np.ndarray, n_polygons: int) -> np.ndarray:
     """The polygon that is the image of each, (n_polygons,) int64, if all its sides say so, and that one's; else -1."""
     image = np.where(partner >= 0, half.polygon[partner], -1)
-    low, high = np.full(n_polygons, n_polygons), np.full(n_polygons, -1)
+    low, high = full(n_polygons, n_polygons), full(n_polygons, -1)
     np.minimum.at(low, half.polygon, image)
     np.maximum.at(high, half.polygon, image)
     twin = np.where(low == high, low, -1)
-    return np.where((twin >= 0) & (twin[twin] == np.arange(n_polygons)), twin, -1)
+    return np.where((twin >= 0) & (twin[twin] == arange(n_polygons)), twin, -1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,17 +241,17 @@ class _Regions:
     @classmethod
     def of(cls, half: HalfEdges, twin: np.ndarray, area: np.ndarray) -> _Regions:
         """Divide a mesh. twin, area : (p,), of the polygons."""
-        own = np.arange(len(twin))
+        own = arange(len(twin))
         across = np.flatnonzero(half.opposite >= 0)
         one, other = half.polygon[across], half.polygon[half.opposite[across]]
         apart = (twin >= 0) & (twin != own)
         inner = apart[one] & apart[other] & (twin[one] != other)
         count, region = components(len(twin), one[inner], other[inner])
         share = np.bincount(region, area, count) / area.sum()
-        image = np.full(count, -1)
+        image = full(count, -1)
         image[region[apart]] = region[twin[apart]]
-        itself = image == np.arange(count)
-        image[itself | (image[image] != np.arange(count))] = -1
+        itself = image == arange(count)
+        image[itself | (image[image] != arange(count))] = -1
         piece = components(len(twin), one, other)[1]
         beside = np.zeros(count, bool)
         beside[region[apart]] = piece[apart] == piece[twin[apart]]
@@ -264,7 +265,7 @@ def _with_sides(regions: _Regions, twin: np.ndarray, area: np.ndarray, middle: n
     first = int(np.argmax(np.where(regions.beside, regions.area, -1.0)))
     side = (regions.of_polygon == first).astype(np.int64) - (regions.of_polygon == regions.image[first])
     side = _by_nearest(side, regions, area, middle)
-    twin = np.where((side != 0) | (twin == np.arange(len(twin))), twin, -1)
+    twin = np.where((side != 0) | (twin == arange(len(twin))), twin, -1)
     if area[twin >= 0].sum() < COVERED * area.sum():
         return None
     way = np.asarray(weighted_sum(area * side, middle))

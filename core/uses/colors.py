@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.indexing import frozen
+from ..arrays.int64 import full
 from ..arrays.pairs import partners_of
 from ..result.numbering import NumberedParts, NumberGraph
 
@@ -136,7 +137,7 @@ def chosen_colors(
         Place in the palette, 0..c-1.
     """
     apart = distance_matrix(palette)
-    chosen = np.full(count, -1)
+    chosen = full(count, -1)
     used = np.zeros(len(palette), np.int64)
     around = partners_of(neighbors, count)
     for part in range(count):

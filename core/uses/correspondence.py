@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.indexing import inverse, underflow_is_zero
+from ..arrays.int64 import arange
 from ..errors import ParameterError
 from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
@@ -107,7 +108,7 @@ def sample_surface(
         given = without_copies(given, copies)
     given, ordering = sorted_by_place(given)
     working = repair(given)
-    body = Component.of(working, np.arange(working.mesh.n_faces))
+    body = Component.of(working, arange(working.mesh.n_faces))
     pyramid = Pyramid(body.mesh, body.bridges.vertices)
     steps = pyramid.until(lambda mesh: mesh.n_vertices <= VERTICES)
     mesh, area, links = pyramid.after(steps)

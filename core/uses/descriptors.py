@@ -16,6 +16,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from ..arrays.indexing import sums_by, underflow_is_zero
+from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways
 from ..arrays.vectors import middles_of_each
 from ..errors import MeshError
@@ -151,7 +152,7 @@ def _quantiles(values: np.ndarray, weight: np.ndarray, group: np.ndarray, count:
     """Weighted quantiles of the values of each group, (count, len(shares)); 0 for a group of none."""
     found = np.zeros((count, len(shares)))
     order = np.lexsort((values, group))
-    start = np.searchsorted(group[order], np.arange(count + 1))
+    start = np.searchsorted(group[order], arange(count + 1))
     for index in range(count):
         own = order[start[index]:start[index + 1]]
         if len(own):
@@ -193,7 +194,7 @@ def part_descriptors(
     size = surface.size
     columns = {
         "log_share": np.log(size) * 2,
-        "has_twin": ((parts.twin >= 0) & (parts.twin != np.arange(parts.count))).astype(float),
+        "has_twin": ((parts.twin >= 0) & (parts.twin != arange(parts.count))).astype(float),
         "n_leaves": np.log1p(_in_parts(parts, parts.decomposition.graph.node_kind == MAXIMUM)),
         "n_arcs": np.log1p(np.bincount(parts.arc_part, minlength=parts.count)),
         "hops": np.log1p(_hops(parts, surface.area)),
@@ -267,7 +268,7 @@ def _apart(surface: _Surface) -> np.ndarray:
     total = np.cumsum(mesh.face_area[order])
     end = np.cumsum(np.bincount(label, mesh.face_area, surface.count))
     begin = np.concatenate([[0.0], end[:-1]])
-    step = (np.arange(N_POINTS) + 0.5) / N_POINTS
+    step = (arange(N_POINTS) + 0.5) / N_POINTS
     place = begin[:, None] + step[None] * (end - begin)[:, None]
     point = mesh.face_centroids[order[np.searchsorted(total, place).clip(max=len(order) - 1)]]  # (count, N_POINTS, 3)
     first, second = np.triu_indices(N_POINTS, 1)

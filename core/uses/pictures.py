@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.indexing import expanded
+from ..arrays.int64 import arange, cumsum, full
 from ..graph.reeb import ReebGraph
 from ..mesh.triangles import TriMesh
 
@@ -111,8 +112,8 @@ def _nearest_faces(place: np.ndarray, height: np.ndarray, rows: range, size: int
     first = np.ceil(place.min(axis=1)).astype(np.int64).clip(low, high)
     count = (np.floor(place.max(axis=1)).astype(np.int64) + 1).clip(low, high) - first
     n_pixels = count.clip(0).prod(axis=1)
-    seen, nearest = np.full(len(rows) * size, -1), np.full(len(rows) * size, -np.inf)
-    bounds = np.searchsorted(np.cumsum(n_pixels), np.arange(0, n_pixels.sum() + CHUNK, CHUNK))
+    seen, nearest = full(len(rows) * size, -1), np.full(len(rows) * size, -np.inf)
+    bounds = np.searchsorted(cumsum(n_pixels), arange(0, n_pixels.sum() + CHUNK, CHUNK))
     for begin, end in zip(bounds, np.append(bounds[1:], len(place)), strict=True):
         face, step = expanded(np.zeros(end - begin, np.int64), n_pixels[begin:end])
         face = face + begin
@@ -179,7 +180,7 @@ def _graph_discs(camera: _Camera, graph: ReebGraph) -> list[tuple[np.ndarray, np
 
 def _draw_discs(image: np.ndarray, centers: np.ndarray, color: np.ndarray, radius: float) -> None:
     """Fill discs of one color around centers, (k, 2) int64, columns and rows, which may lie outside."""
-    reach = np.arange(-int(radius) - 1, int(radius) + 2)
+    reach = arange(-int(radius) - 1, int(radius) + 2)
     offset = np.stack(np.meshgrid(reach, reach), -1).reshape(-1, 2)
     offset = offset[(offset**2).sum(axis=1) <= radius**2]
     centers = centers[(centers[:, 1] >= reach[0]) & (centers[:, 1] < len(image) - reach[0])]

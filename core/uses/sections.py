@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.components import components
+from ..arrays.int64 import arange, full
 from ..arrays.pairs import are_among, distinct_pairs
 from ..arrays.vectors import cross_in_plane
 from ..mesh.triangles import EdgeTable
@@ -55,7 +56,7 @@ def planes_to_fit(points: np.ndarray, areas: np.ndarray, box: np.ndarray,
     k = int(np.argmax(counts[best] > 1))
     axis = frames[best][orders[best][k]]
     low, length, count = (points @ axis).min(), extents[best][orders[best][k]], int(counts[best][k])
-    return axis, low + length * np.arange(1, count) / count, frames[best]
+    return axis, low + length * arange(1, count) / count, frames[best]
 
 
 def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -> np.ndarray | None:
@@ -79,7 +80,7 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
     open_ = wall[table.pair_edge]
     count, label = components(len(triangles), *table.pairs[~open_].T)
     # Across each curve, what is outside is inside; at the rim of all triangles, it is known.
-    inside = np.full(count, -1)
+    inside = full(count, -1)
     face, side = np.nonzero(table.n_faces[table.face_edges] == 1)
     inside[label[face]] = wall[table.face_edges[face, side]]
     beyond = distinct_pairs(*label[table.pairs[open_]].T)[0]

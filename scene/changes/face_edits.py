@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ...core.arrays.int64 import arange
 from ...core.mesh.corners import CornerTable
 from ...core.mesh.face_graph import FaceGraph
 from ...core.result.decomposition import Decomposition
@@ -124,7 +125,7 @@ def _with_small_pieces(stored: Stored, graph: FaceGraph, after: np.ndarray, besi
     along = with_small_pieces(touching, stored.face_numbers, after, beside_taken)
     if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
         return along
-    image = np.arange(int(max(along.max(), numbered.numbers.max())) + 1)
+    image = arange(int(max(along.max(), numbered.numbers.max())) + 1)
     own_side = np.zeros_like(image)
     twin = twin_numbers(numbered)
     image[list(twin)] = list(twin.values())
@@ -135,7 +136,7 @@ def _with_small_pieces(stored: Stored, graph: FaceGraph, after: np.ndarray, besi
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
     """The stored result with finer candidates, which have the numbers of those that they were cut from."""
     origin = np.empty(decomposition.n_candidates, np.int64)
-    origin[: len(stored.shown)] = np.arange(len(stored.shown))
+    origin[: len(stored.shown)] = arange(len(stored.shown))
     origin[decomposition.candidates] = stored.decomposition.candidates
     return Stored(decomposition, stored.previous_number[origin], stored.pinned[origin], stored.shown[origin])
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 import bpy
 import numpy as np
 
+from ...core.arrays.int64 import arange
 from ...core.graph.reeb import ReebGraph
 
 NAME = "Reeb arcs"
@@ -44,7 +45,7 @@ def places(graph: ReebGraph, back: np.ndarray) -> np.ndarray:
 def _chain(graph: ReebGraph, arc: int) -> np.ndarray:
     """An arc from its lower node through its center points to its upper node: rows of ``places``, (m,) int64."""
     low, high = graph.arcs[arc]
-    inner = graph.n_nodes + np.arange(graph.arc_points[arc], graph.arc_points[arc + 1])
+    inner = graph.n_nodes + arange(graph.arc_points[arc], graph.arc_points[arc + 1])
     return np.concatenate([[low], inner, [high]])
 
 

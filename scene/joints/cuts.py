@@ -13,6 +13,7 @@ import numpy as np
 
 from ...core.arrays.components import components
 from ...core.arrays.indexing import hashed_sets
+from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.triangles import EdgeTable
 from ..pieces.closing import caps
@@ -78,7 +79,7 @@ def _shared_faces(
     if not len(corners):
         return
     name = _names(corners, [place for _, _, place in found])
-    piece = np.repeat(np.arange(len(keys)), [len(faces) for faces, _, _ in found])
+    piece = np.repeat(arange(len(keys)), [len(faces) for faces, _, _ in found])
     face = np.concatenate([faces for faces, _, _ in found])
     order = np.lexsort((piece, name))
     twice = np.flatnonzero((name[order][1:] == name[order][:-1]) & (piece[order][1:] != piece[order][:-1]))
@@ -100,14 +101,14 @@ def _cap_faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray
     is_cap = caps.is_cap(mesh)
     vertex, face = mesh_arrays.face_corners(mesh)
     here = is_cap[face]
-    return np.flatnonzero(is_cap), mesh_arrays.basis_points(mesh)[vertex[here]], (np.cumsum(is_cap) - 1)[face[here]]
+    return np.flatnonzero(is_cap), mesh_arrays.basis_points(mesh)[vertex[here]], (cumsum(is_cap) - 1)[face[here]]
 
 
 def _names(corners: np.ndarray, faces: list[np.ndarray]) -> np.ndarray:
     """A number for each face that faces with corners at the same places share, (f,) uint64."""
     place = _places(corners.astype(np.float64))
     count = [int(some.max(initial=-1)) + 1 for some in faces]
-    start = np.cumsum([0, *count])
+    start = cumsum([0, *count])
     face = np.concatenate([some + first for some, first in zip(faces, start, strict=False)])
     return hashed_sets(face, place, int(start[-1]))
 

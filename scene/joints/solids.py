@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ...core.arrays.int64 import cumsum
 from ..pieces.closing import caps
 from ..reading import mesh_arrays
 from ..temporary import removed
@@ -70,7 +71,7 @@ def with_solids(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tu
 def _tool(mesh: bpy.types.Mesh, solids: list[Solid], to_mesh: np.ndarray, material: int) -> bpy.types.Mesh:
     """A mesh of solids, with the materials of another mesh; all of it are caps."""
     made = bpy.data.meshes.new("Reeb Parts")
-    start = np.cumsum([0, *(len(solid.points) for solid in solids)]).tolist()
+    start = cumsum([0, *(len(solid.points) for solid in solids)]).tolist()
     points = np.concatenate([solid.points for solid in solids]) @ to_mesh.T
     faces = [tuple(first + corner for corner in face)
              for solid, first in zip(solids, start, strict=False) for face in solid.faces]

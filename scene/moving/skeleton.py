@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ...core.arrays.int64 import arange
 from ...core.mesh.corners import CornerTable
 from ...core.result.numbering import NumberedParts
 from ...core.result.whole import Whole, whole_of
@@ -89,7 +90,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     whole = whole_model(obj, shape, numbered)
     parts = numbered.parts if whole is None else whole.parts
     surface = _surface(obj, shape, parts, whole, np.array(place.inverted() @ world, np.float64))
-    bone_part = part_bone = np.arange(parts.count)
+    bone_part = part_bone = arange(parts.count)
     if limbs:
         bones, bone_part, part_bone = limb_bones(surface)
     else:
@@ -97,7 +98,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     twin = np.empty(0, np.int64) if whole is None else part_bone[parts.twin[bone_part]]
     on_plane = np.empty(0, bool) if whole is None else whole.on_plane
     return Skeleton(place, bones, _names(obj.data, numbered, whole, bone_part), surface.table, part_bone[parts.labels],
-                    twin, on_plane, int((~np.isin(np.arange(numbered.parts.count), bone_part)).sum()))
+                    twin, on_plane, int((~np.isin(arange(numbered.parts.count), bone_part)).sum()))
 
 
 def _surface(obj: bpy.types.Object, shape: bridge.Shape, parts: Parts, whole: Whole | None,
@@ -129,6 +130,6 @@ def _names(mesh: bpy.types.Mesh, numbered: NumberedParts, whole: Whole | None, b
     names = [part_names.part_name(mesh, number) for number in numbered.numbers.tolist()]
     if whole is None:
         return [names[part] for part in bone_part.tolist()]
-    first, side = np.minimum(whole.parts.twin, np.arange(whole.parts.count)), whole.parts.side
+    first, side = np.minimum(whole.parts.twin, arange(whole.parts.count)), whole.parts.side
     return [part_names.of_side(names[first[part]], int(side[part]), first[part] != part)
             for part in bone_part.tolist()]

@@ -14,6 +14,7 @@ import re
 import bpy
 import numpy as np
 
+from ...core.arrays.int64 import arange
 from .. import store, targets, transaction
 from ..outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 from ..outputs.kept_aside import find_attribute, remove_attribute
@@ -66,7 +67,7 @@ def _remove_joined(obj: bpy.types.Object) -> bool:
     """What ``remove`` does for a mesh that has a result, and faces behind those of the result."""
     mesh, result = obj.data, obj.data.reeb_parts
     numbers = _numbers(mesh) if _has_both(mesh) else np.zeros(len(mesh.polygons), np.int32)
-    new = np.arange(len(mesh.polygons)) >= result.n_faces
+    new = arange(len(mesh.polygons)) >= result.n_faces
     numbers[~new] = 0
     transaction.keep_mesh(mesh)
     joined = bool(materials.of_others(mesh))

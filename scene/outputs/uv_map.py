@@ -11,6 +11,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.arrays.indexing import renumbered
+from ...core.arrays.int64 import full
 from ...core.uses.maps.stacking import double_corners
 from .. import store, transaction
 from ..errors import SceneError
@@ -102,7 +103,7 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
             rpt_("{name} has as many UV maps as Blender allows. Remove one and try again.").format(name=mesh.name))
     # Joined: parts hang together where only their vertices are split, as in .glb files, and so do their islands.
     table = mesh_arrays.joined_table(mesh, mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T)
-    image = _images(table, stored) if stack else np.full(len(mesh.loops), -1)
+    image = _images(table, stored) if stack else full(len(mesh.loops), -1)
     double = double_corners(table, ~_left_out(table, image))
     low, high = table.edge_labels(_of_faces_below(table, stored.face_numbers, double))
     seams = low < high
@@ -149,7 +150,7 @@ def _images(table: CornerTable, stored: Stored) -> np.ndarray:
 
     decomposition, parts = stored.decomposition, stored.shown_parts().parts
     if decomposition.plane is None:
-        return np.full(len(table.corner_vertex), -1)
+        return full(len(table.corner_vertex), -1)
     return image_corners(table, parts.labels, parts.side, decomposition.plane, decomposition.face_twin)
 
 

@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.indexing import run_starts
+from ...core.arrays.int64 import arange
 from ...core.result.numbering import NumberedParts
 from .. import targets, transaction
 from ..ours import made_objects
@@ -53,7 +54,7 @@ class Grains:
                                 one[several].astype(np.int64) * n_vertices + several])
         one[several] = count
         inner = np.argsort(one, kind="stable").astype(np.int32)
-        bounds = np.searchsorted(one[inner], np.arange(count + 1))
+        bounds = np.searchsorted(one[inner], arange(count + 1))
         return cls(inner, bounds, np.column_stack(np.divmod(np.unique(pairs), max(n_vertices, 1))))
 
     def changes(self, before: np.ndarray, after: np.ndarray) -> tuple[dict, dict]:

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.indexing import renumbered, run_starts
+from ...core.arrays.int64 import arange, cumsum, full
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.corners import CornerTable
 from ...core.steps import Steps, stretched
@@ -74,17 +75,17 @@ def _with_triangles(table: CornerTable, points: np.ndarray, labels: np.ndarray,
     sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     known = np.sort(table.edges[table.corner_edge[corner]], axis=1)
     every, row = distinct_pairs(*np.concatenate([known, sides]).T)
-    edge = np.full(len(every), -1)
+    edge = full(len(every), -1)
     edge[row[: len(known)]] = table.corner_edge[corner]
     new = edge < 0
-    edge[new] = len(table.edges) + np.arange(new.sum())
-    kept, face_kept = ~corner, np.cumsum(~odd) - 1
+    edge[new] = len(table.edges) + arange(new.sum())
+    kept, face_kept = ~corner, cumsum(~odd) - 1
     divided = replace(
         table, edges=np.concatenate([table.edges, every[new]]),
         corner_vertex=np.concatenate([table.corner_vertex[kept], triangles.ravel()]),
         corner_edge=np.concatenate([table.corner_edge[kept], edge[row[len(known) :]]]),
         corner_face=np.concatenate([face_kept[table.corner_face[kept]],
-                                    (~odd).sum() + np.repeat(np.arange(len(triangles)), 3)]),
+                                    (~odd).sum() + np.repeat(arange(len(triangles)), 3)]),
         n_faces=int((~odd).sum()) + len(triangles))
     return divided, np.concatenate([labels[~odd], number])
 
@@ -98,10 +99,10 @@ def _triangles(rings: list[np.ndarray], points: np.ndarray, labels: np.ndarray) 
     with freed(bmesh.new()) as bm:
         verts = [bm.verts.new(point) for point in points[used].tolist()]
         layer = bm.faces.layers.int.new(smooth_faces.NUMBER)
-        first = np.cumsum([0, *map(len, rings)]).tolist()
+        first = cumsum([0, *map(len, rings)]).tolist()
         for start, end, label in zip(first, first[1:], labels.tolist(), strict=False):
             bm.faces.new([verts[i] for i in vertex[start:end].tolist()])[layer] = label
         bm.verts.index_update()
-        smooth_faces.triangulate(bm, np.arange(len(rings)))
+        smooth_faces.triangulate(bm, arange(len(rings)))
         triangles = used[[[vert.index for vert in face.verts] for face in bm.faces]]
         return triangles, np.array([face[layer] for face in bm.faces], np.int64)

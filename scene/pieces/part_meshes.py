@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.indexing import stable_order
+from ...core.arrays.int64 import arange
 from ...core.arrays.pairs import are_among, distinct_pairs
 from ...core.mesh.corners import CornerTable, edge_labels
 from ...core.steps import Steps, finished, stretched
@@ -153,7 +154,7 @@ def _welded(whole: Elements, faces: np.ndarray, sculpted: bool) -> tuple[Element
     """
     if sculpted:
         twin = welding.border_twins(whole)
-        welded, apart = whole, np.flatnonzero(twin != np.arange(len(twin)))
+        welded, apart = whole, np.flatnonzero(twin != arange(len(twin)))
     else:
         kept = whole.layers.get(_NORMAL) or whole.layers.get(_CUSTOM)
         welded, apart = welding.welded(whole, kept.values if kept and kept.domain == CORNER else None)

@@ -12,6 +12,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ...core.arrays.indexing import renumbered, stable_order
+from ...core.arrays.int64 import arange
 from ...core.arrays.vectors import cross, lengths
 from ...core.mesh.corners import CornerTable
 from ...core.surface.reach import within_reach
@@ -123,7 +124,7 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     vector = cross(b - a, c - a)  # as long as twice the area
     places = _Places.of(points, triangles, vector)
     tried = _tried(mesh, face)
-    near = np.arange(len(triangles))
+    near = arange(len(triangles))
     if not tried.all():
         near = np.flatnonzero(within_reach(points, triangles, tried, places.start, -places.out))
     tree = _tree(points, triangles[near])

@@ -17,6 +17,7 @@ import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
 from ...core.arrays.indexing import run_starts
+from ...core.arrays.int64 import arange
 from ...core.steps import Steps, stretched
 from ..reading import element_layers, mesh_groups
 from ..reading.elements import FACE, Elements, Layer, Selection
@@ -107,9 +108,9 @@ def _changed(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, fa
     n, n_here, n_now = len(whole.count), len(here.faces), len(now.count)
     whole = whole.grafted(now.without_layer(NUMBER), here.vertices, here.edges, 0)
     # The faces that there were keep their places.
-    order = np.arange(n)
-    order[here.faces] = n + np.arange(n_here)
-    order = np.concatenate([order[order < n + n_now], np.arange(n + n_here, n + n_now)])
+    order = arange(n)
+    order[here.faces] = n + arange(n_here)
+    order = np.concatenate([order[order < n + n_now], arange(n + n_here, n + n_now)])
     return whole.taken(whole.selection(order)), np.concatenate([face_numbers, numbers])[order]
 
 

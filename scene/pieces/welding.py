@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...core.arrays.indexing import hashed_sets, inverse
+from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.pairs import distinct_pairs, repeated_in
 from ...core.mesh.borders import GAP
 from ...core.mesh.corners import next_of_owner
@@ -46,7 +47,7 @@ def welded(whole: Elements, normals: np.ndarray | None = None) -> tuple[Elements
         be faces twice, faces with a corner twice, or edges of more than two faces.
     """
     twin = border_twins(whole)
-    own = np.arange(len(twin))
+    own = arange(len(twin))
     moved = np.flatnonzero(twin != own)
     if not len(moved):
         return whole, moved
@@ -79,11 +80,11 @@ def _unlike(values: Values, some: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Whether elements have other values than others, (k,) bool; the order of lists does not count."""
     if not isinstance(values, Ragged):
         return (values[some] != values[others]).reshape(len(some), -1).any(axis=1)
-    owner = np.repeat(np.arange(len(values)), values.count)
+    owner = np.repeat(arange(len(values)), values.count)
     # Lists of as many items are the same if the sorted items are.
     names = values.items.dtype.names or ()
     items = values.items[np.lexsort((*(values.items[name] for name in reversed(names)), owner))]
-    start = np.cumsum(values.count) - values.count
+    start = cumsum(values.count) - values.count
     found = values.count[some] != values.count[others]
     for place in range(int(values.count[some].max(initial=0))):
         here = np.flatnonzero(~found & (values.count[some] > place))
@@ -94,7 +95,7 @@ def _unlike(values: Values, some: np.ndarray, others: np.ndarray) -> np.ndarray:
 def _wrong(whole: Elements, first: np.ndarray) -> np.ndarray:
     """Vertices to which others cannot be welded, (v,) bool; ``first`` : (v,) int64, what each would be."""
     wrong, receives = np.zeros(len(first), bool), np.zeros(len(first), bool)
-    receives[first[first != np.arange(len(first))]] = True
+    receives[first[first != arange(len(first))]] = True
     vertex, face = first[whole.corner_vertex], whole.corner_face
     wrong[repeated_in(face, vertex, count=len(first))] = True
     edges, number = distinct_pairs(*np.sort(first[whole.ends], axis=1).T)
@@ -107,8 +108,8 @@ def _wrong(whole: Elements, first: np.ndarray) -> np.ndarray:
 
 def _merged(whole: Elements, first: np.ndarray, normals: np.ndarray | None) -> Elements:
     """The elements with each vertex replaced. first : (v,) int64. normals : as of ``welded``."""
-    kept = np.flatnonzero(first == np.arange(len(first)))
-    vertex = (np.cumsum(first == np.arange(len(first))) - 1)[first].astype(np.int32)
+    kept = np.flatnonzero(first == arange(len(first)))
+    vertex = (cumsum(first == arange(len(first))) - 1)[first].astype(np.int32)
     _, number = distinct_pairs(*np.sort(vertex[whole.ends], axis=1).T)
     _, edges = np.unique(number, return_index=True)
     order = np.argsort(edges)  # as they were

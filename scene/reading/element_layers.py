@@ -14,6 +14,7 @@ import bmesh
 import bpy
 import numpy as np
 
+from ...core.arrays.int64 import arange
 from ..temporary import freed, removed
 from . import fingerprints, mesh_arrays, mesh_groups
 from .elements import CORNER, EDGE, FACE, POINT, Elements, Layer, Ragged
@@ -155,7 +156,7 @@ def _weights(mesh: bpy.types.Mesh, n_groups: int | None) -> Ragged | None:
 
 def _set_weights(mesh: bpy.types.Mesh, weights: Ragged, names: Sequence[str] | None) -> None:
     """Give vertices their weights. names : of all groups, see ``made``."""
-    vertex = np.repeat(np.arange(len(weights)), weights.count)
+    vertex = np.repeat(arange(len(weights)), weights.count)
     with mesh_groups.twin(mesh) as twin:
         own = dict(enumerate(twin.vertex_groups)) if names is None else mesh_groups.of_names(
             twin, names, np.unique(weights.items["group"]).tolist())

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ...core.arrays.indexing import ranges
+from ...core.arrays.int64 import arange, cumsum
 from ...core.mesh.corners import CornerTable
 from ...core.surface.orientation import looks_inwards, of_solids
 
@@ -139,7 +140,7 @@ class Elements:
     def around(self, vertices: np.ndarray) -> np.ndarray:
         """Faces with one of some vertices, (v,) bool: (k,) int64, rising."""
         corner = np.flatnonzero(vertices[self.corner_vertex])
-        first = np.cumsum(self.count) - self.count
+        first = cumsum(self.count) - self.count
         return np.unique(np.searchsorted(first, corner, side="right") - 1)
 
     def selection(self, faces: np.ndarray) -> Selection:
@@ -196,13 +197,13 @@ class Elements:
         same = theirs and (theirs.kind, theirs.domain) == (layer.kind, layer.domain)
         number = other.size(layer.domain)
         second = theirs.values if theirs and same else _nothing(layer.values, number)
-        return replace(layer, values=_concatenated(first, take(second, np.arange(kept[layer.domain], number))))
+        return replace(layer, values=_concatenated(first, take(second, arange(kept[layer.domain], number))))
 
     def turned(self, faces: np.ndarray) -> Elements:
         """Elements with some faces, (f,) bool, turned over; what their corners carry goes along."""
         count = self.count.astype(np.int64)
-        first, n = np.repeat(np.cumsum(count) - count, count), np.repeat(count, count)
-        corner = np.arange(len(n))
+        first, n = np.repeat(cumsum(count) - count, count), np.repeat(count, count)
+        corner = arange(len(n))
         turns, place = faces[self.corner_face], corner - first
         order = np.where(turns, first + (n - place) % n, corner)  # the first corner stays the first
         edge = np.where(turns, first + n - 1 - place, corner)
@@ -235,7 +236,7 @@ def _numbers(chosen: np.ndarray, count: int) -> np.ndarray:
 
 def _continued(known: np.ndarray, count: int, number: int) -> np.ndarray:
     """The new numbers of so many elements, of which the first are known ones of ``count`` others, (number,) int32."""
-    return np.concatenate([known, count + np.arange(number - len(known))]).astype(np.int32)
+    return np.concatenate([known, count + arange(number - len(known))]).astype(np.int32)
 
 
 def take(values: Values, index: np.ndarray) -> Values:
@@ -243,7 +244,7 @@ def take(values: Values, index: np.ndarray) -> Values:
     if isinstance(values, np.ndarray):
         return np.take(values, index, axis=0)
     count = values.count[index]
-    first = (np.cumsum(values.count) - values.count)[index]
+    first = (cumsum(values.count) - values.count)[index]
     return Ragged(count, values.items[ranges(first, count)])
 
 

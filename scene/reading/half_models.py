@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ...core.arrays.int64 import arange
 from ...core.symmetry.halves import is_one_side
 from .mesh_arrays import basis_points
 from .placing import world_matrix
@@ -65,7 +66,7 @@ def half_plane(obj: bpy.types.Object, vertices: np.ndarray, stretch: np.ndarray)
         local = np.array(world_matrix(modifier.mirror_object).inverted_safe() @ world_matrix(obj), dtype=np.float64)
     axis = list(modifier.use_axis).index(True)
     length = np.linalg.norm(local[axis, :3])
-    image = np.linalg.pinv(local) @ np.diag(np.where(np.arange(4) == axis, -1.0, 1.0)) @ local  # of points of the mesh
+    image = np.linalg.pinv(local) @ np.diag(np.where(arange(4) == axis, -1.0, 1.0)) @ local  # of points of the mesh
     if not length > 0 or not np.isfinite(image).all():
         return nothing
     normal = np.linalg.pinv(stretch) @ (local[axis, :3] / length)  # covariant

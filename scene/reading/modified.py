@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ...core.arrays.int64 import arange
 from ...core.arrays.pairs import distinct_pairs
 from ...core.sentence import Count
 from ...core.symmetry.plane import MirrorPlane
@@ -141,7 +142,7 @@ def both_sides(obj: bpy.types.Object, seen: bpy.types.Mesh, face_numbers: np.nda
     reached = [np.bincount(place, side, len(found)) > 0 for side in (behind, ~behind)]
     over = found[reached[0] & reached[1], 1]
     twice = np.setdiff1d(np.intersect1d(face_numbers[image], face_numbers[~image]), over)
-    another = int(face_numbers.max()) + 1 + np.arange(len(twice))
+    another = int(face_numbers.max()) + 1 + arange(len(twice))
     numbers = face_numbers.copy()
     mirrored = image & np.isin(face_numbers, twice)
     numbers[mirrored] = another[np.searchsorted(twice, face_numbers[mirrored])]

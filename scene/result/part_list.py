@@ -13,6 +13,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix
 
+from ...core.arrays.int64 import arange
 from .. import property_updates, store, targets, transaction
 from ..changes.settled import reaction
 from ..errors import SceneError
@@ -142,7 +143,7 @@ def ordered(parts: bpy.types.bpy_prop_collection, by: str, matrix: Matrix) -> li
 def _places(keys: np.ndarray) -> list[int]:
     """The place of each key among all, (k,); equal ones stay in their order."""
     places = np.empty(len(keys), np.int64)
-    places[np.argsort(keys, kind="stable")] = np.arange(len(keys))
+    places[np.argsort(keys, kind="stable")] = arange(len(keys))
     return places.tolist()
 
 

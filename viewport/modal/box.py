@@ -8,6 +8,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
+from ...core.arrays.int64 import arange
 from ..pointing import Model, is_clipped, on_screen, ray_of
 
 SAMPLES = 64  # faces of each part that are looked at, whether something hides them
@@ -50,7 +51,7 @@ def _sampled(numbers: np.ndarray) -> np.ndarray:
     """Some of the faces of each part, evenly over their order. numbers : (k,) int64. Returns (k,) bool."""
     order = np.argsort(numbers, kind="stable")
     _, start, count = np.unique(numbers[order], return_index=True, return_counts=True)
-    place = np.arange(len(numbers)) - np.repeat(start, count)
+    place = arange(len(numbers)) - np.repeat(start, count)
     chosen = np.empty(len(numbers), bool)
     step = np.repeat(-(-count // SAMPLES), count)
     chosen[order] = place % step == 0

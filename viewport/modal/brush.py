@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays.components import components
 from ...core.arrays.indexing import expanded
+from ...core.arrays.int64 import arange, cumsum, full
 from ...core.arrays.pairs import both_ways
 from ...core.sentence import Count
 from ...scene import store
@@ -44,8 +45,8 @@ class Brush:
         pairs, _ = mesh_arrays.joined_table(obj.data).face_pairs()
         first, second = both_ways(pairs).T
         self.neighbors = second[np.argsort(first, kind="stable")]  # of each face, one face after the other
-        self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))
-        self.place = np.full(count, -1)
+        self.start = np.append(0, cumsum(np.bincount(first, minlength=count)))
+        self.place = full(count, -1)
         self.chosen = np.zeros(count, bool)
         self._locked = np.zeros(count, bool)
         self.free = ~np.isin(model.numbers, pins.locked_others(obj.data, number))
@@ -58,7 +59,7 @@ class Brush:
         near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)
         if first not in near:  # faces larger than the brush are painted one by one
             near = np.append(near, first)
-        self.place[near] = np.arange(len(near))
+        self.place[near] = arange(len(near))
         owner, row = expanded(self.start[near], self.start[near + 1] - self.start[near])
         beside = self.place[self.neighbors[row]]
         _, piece = components(len(near), owner[beside >= 0], beside[beside >= 0])

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ...core.arrays.int64 import full
 from ...scene.changes import pins
 from ...scene.errors import SceneError
 from ...scene.outputs import colors
@@ -29,7 +30,7 @@ class ColoredTool(ViewTool):
 
     def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         if self._shown is not None:  # another command has written its parts, and maybe not over all that was shown
-            self._shown = np.full(len(self.model.numbers), -1)
+            self._shown = full(len(self.model.numbers), -1)
             self.restore()
         self._shown = self.model.numbers
         self.number = active_number(obj.data)

@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import depth_first_order
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered
+from ...arrays.int64 import arange
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
 
@@ -96,7 +97,7 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
     total = arc_length[-1]
     if total <= 0:
         return 0.0
-    at = (np.arange(SAMPLES) + 0.5) / SAMPLES * total
+    at = (arange(SAMPLES) + 0.5) / SAMPLES * total
     smooth = np.interp(at, arc_length, along)
     if sigma > 0:
         smooth = gaussian_filter1d(smooth, sigma * SAMPLES, mode="wrap" if closed else "nearest")

@@ -15,6 +15,7 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
+from ...arrays.int64 import arange
 from ...arrays.pairs import edge_keys, pair_keys
 from ...arrays.ties import on_grid, rounded
 from ...arrays.vectors import distances_between
@@ -98,7 +99,7 @@ def distant_pairs(
 def _largest(area: np.ndarray) -> np.ndarray:
     """The MOST_COMPARED largest parts, in their order, without a group of equal area that does not fit in whole."""
     if len(area) <= MOST_COMPARED:
-        return np.arange(len(area))
+        return arange(len(area))
     area = rounded(area)
     return np.flatnonzero(area > np.partition(area, -MOST_COMPARED - 1)[-MOST_COMPARED - 1])
 

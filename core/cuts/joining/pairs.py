@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays.indexing import last_of_each, run_starts
+from ...arrays.int64 import arange, cumsum
 from ...arrays.pairs import distinct_pairs
 from ...arrays.ties import rounded
 from ...arrays.vectors import middles_of_each
@@ -163,7 +164,7 @@ class _Nearness:
 
     def nearest(self) -> tuple[np.ndarray, np.ndarray]:
         """The two nearest points of each pair of parts, (e, 2) int64, and their distance, (e,) float64."""
-        k = last_of_each(self.row, -self.distance, -np.arange(len(self.row)), count=len(self.parts))
+        k = last_of_each(self.row, -self.distance, -arange(len(self.row)), count=len(self.parts))
         return self.ends[k], self.distance[k]
 
     def of_neighbors(self, count: int) -> _Nearness:
@@ -174,12 +175,12 @@ class _Nearness:
         start = run_starts(part[order])
         of_each = np.diff(start, append=len(part))
         farthest = order[start + np.minimum(of_each, min(most, MOST_NEAR)) - 1] % len(gap)
-        rank = np.arange(len(part)) - np.repeat(start, of_each)
+        rank = arange(len(part)) - np.repeat(start, of_each)
         row = order % len(gap)
         kept = np.zeros(len(gap), bool)
         kept[row[(gap[row] <= np.repeat(gap[farthest], of_each)) & (rank < most)]] = True
         ends = kept[self.row]
-        return _Nearness(self.points, self.parts[kept], self.ends[ends], (np.cumsum(kept) - 1)[self.row[ends]],
+        return _Nearness(self.points, self.parts[kept], self.ends[ends], (cumsum(kept) - 1)[self.row[ends]],
                          self.first[ends], self.distance[ends])
 
     def share(self, area: np.ndarray) -> np.ndarray:

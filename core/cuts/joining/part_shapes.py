@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ...arrays.int64 import arange, cumsum
 from ...arrays.ties import square_roots
 from ...arrays.vectors import middles_of_each, second_moments_of_each
 from ...mesh.triangles import TriMesh
@@ -106,7 +107,7 @@ class PartShapes:
     def _repeats(self) -> np.ndarray:
         """(c,) int64, how many other parts are as large as each and extend as far."""
         logs = np.column_stack([0.5 * np.log(self.area), np.log(self.extents + THIN)])
-        some = np.arange(len(logs)) % (len(logs) // MOST_ALIKE + 1) == 0
+        some = arange(len(logs)) % (len(logs) // MOST_ALIKE + 1) == 0
         tree = cKDTree(logs[some])
         return tree.query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - some
 
@@ -137,5 +138,5 @@ def _principal_axes(moments: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nda
     values, axes = np.linalg.eigh(moments)  # rising
     values, axes = values[:, ::-1], axes[:, :, ::-1]
     equal = np.diff(values) >= -EQUAL * values[:, :1] - 1e-16  # of what is but a point, too
-    space = np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1)
+    space = cumsum(np.insert(~equal, 0, False, axis=1), axis=1)
     return square_roots(values, values[:, :1]), axes, space

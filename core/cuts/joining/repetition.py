@@ -15,6 +15,7 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
 from ...arrays.components import components
+from ...arrays.int64 import arange, full
 from ...arrays.ties import on_grid, rounded
 from ...arrays.vectors import middles_of_each, second_moments_of_each
 from ...mesh.triangles import TriMesh
@@ -104,7 +105,7 @@ def _tokens(piece: np.ndarray, kind: np.ndarray) -> np.ndarray:
     total = np.zeros(len(kind), np.uint64)
     np.add.at(total, piece, token)
     last = np.zeros(len(kind), np.int64)
-    last[piece] = np.arange(len(piece))
+    last[piece] = arange(len(piece))
     token[last] += of_kind[kind] - total
     return token
 
@@ -146,10 +147,10 @@ class _Groups:
         for a, b in both.tolist():
             sums.append((sums[a] + sums[b]) % 2**64)
             kinds.append(kinds[a] if kinds[a] == kinds[b] else -1)
-        joins, above = np.full(count + made, np.nan), np.full(count + made, -1)
+        joins, above = np.full(count + made, np.nan), full(count + made, -1)
         # A merge counts where the threshold is below the scores of all before it.
         joins[both] = np.minimum.accumulate(linked.scores)[:, None]
-        above[both] = count + np.arange(made)[:, None]
+        above[both] = count + arange(made)[:, None]
         for k in np.flatnonzero(np.array(kinds[count:]) >= 0)[::-1]:
             joins[both[k]] = joins[count + k]
         return cls(count, np.array(sums, np.uint64), joins, above)
@@ -169,7 +170,7 @@ class _Groups:
 
     def innermost(self, groups: np.ndarray) -> np.ndarray:
         """The first of some groups that each part is in, (c,) int64; -1 for none."""
-        chosen = np.full(len(self.token), -1)
+        chosen = full(len(self.token), -1)
         chosen[groups] = groups
         for group in range(len(self.token) - 1, -1, -1):  # what a group is in came after it
             if chosen[group] < 0 <= self.above[group]:

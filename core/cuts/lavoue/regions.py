@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import sums_by
+from ...arrays.int64 import full
 from ...arrays.nearest_seeds import nearest_seeds
 from ...arrays.pairs import pair_keys, symmetric_matrix
 from ...arrays.ties import rounded, whole_steps
@@ -44,7 +45,7 @@ def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
     together = seed[first] & seed[second] & (corners[first, 0] == corners[second, 0])
     core = components(mesh.n_faces, first[together], second[together])[1]
     way = whole_steps(mesh.pair_distance / np.sqrt(mesh.area))
-    source = np.full(mesh.n_faces, -1)
+    source = full(mesh.n_faces, -1)
     if seed.any():
         ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
         source = nearest_seeds(ways, np.flatnonzero(seed))[1]

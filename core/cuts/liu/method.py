@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.int64 import arange, full
 from ...mesh.triangles import TriMesh
 from ..hierarchy import Hierarchy
 from .embedding import geometric, structural
@@ -90,7 +91,7 @@ def _split(
     graph: PatchGraph, connected: np.ndarray, outline_weight: float
 ) -> tuple[np.ndarray, list[tuple[int, int]], list[float]]:
     """Cut connected patches into parts: part of each patch, and the parts and the cost of each cut, cheapest first."""
-    label = np.full(len(graph.area), -1)
+    label = full(len(graph.area), -1)
     label[connected] = 0
     splits, costs = [], []
     queue: list[tuple[float, int, Bisection]] = []
@@ -145,5 +146,5 @@ def bisect(whole: PatchGraph, patches: np.ndarray, outline_weight: float) -> Bis
     rest[graph.components_of(side)[0]] = False
     kept = graph.components_of(rest)[0]
     # What hangs on neither of the two largest components goes to the side that surrounds it.
-    parted = np.setdiff1d(np.arange(len(patches)), kept)
+    parted = np.setdiff1d(arange(len(patches)), kept)
     return Bisection(patches[kept], patches[parted], cost)

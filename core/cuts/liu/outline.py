@@ -101,9 +101,9 @@ def convexity(position: np.ndarray, pairs: np.ndarray) -> float:
     steps = np.linspace(0.0, 1.0, 2 * PIXELS)[:, None]
     drawn = points[pairs[:, 0], None] * (1 - steps) + points[pairs[:, 1], None] * steps
     shape = np.zeros((PIXELS + 4, PIXELS + 4), bool)
-    shape[tuple(np.rint(drawn).astype(int).reshape(-1, 2).T)] = True
+    shape[tuple(np.rint(drawn).astype(np.int64).reshape(-1, 2).T)] = True
     shape = binary_fill_holes(binary_dilation(shape))
-    grid = np.indices(shape.shape).reshape(2, -1).T
+    grid = np.indices(shape.shape, np.int64).reshape(2, -1).T
     # The hull is drawn as the shape was: wider by the half of a pixel and by the one of the dilation.
     inside = (grid @ hull.equations[:, :2].T + hull.equations[:, 2] <= 1.0).all(axis=1).reshape(shape.shape)
     whole = inside | shape

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import place_among, renumbered
+from ...arrays.int64 import cumsum
 from ...arrays.vectors import distances_between, middles_of_each
 from ...mesh.labels import label_boundaries
 from ...mesh.triangles import TriMesh
@@ -74,5 +75,5 @@ class PatchGraph:
         patches = np.flatnonzero(chosen)
         area = np.bincount(component, self.area[patches])
         order = np.argsort(component, kind="stable")
-        parts = np.split(patches[order], np.cumsum(np.bincount(component))[:-1])
+        parts = np.split(patches[order], cumsum(np.bincount(component))[:-1])
         return [parts[p] for p in np.argsort(-area, kind="stable")]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
+from ...arrays.int64 import arange
 from ...arrays.pairs import symmetric_matrix
 from .patch_graph import PatchGraph
 
@@ -42,7 +43,7 @@ def rows(distance: np.ndarray) -> np.ndarray:
     second, first = np.tril_indices(len(distance), -1)
     order = np.lexsort((distance[first], distance[first] - distance[second]), axis=1)
     rank = np.empty_like(order)
-    np.put_along_axis(rank, order, np.arange(order.shape[1])[None], axis=1)
+    np.put_along_axis(rank, order, arange(order.shape[1])[None], axis=1)
     return rank
 
 
@@ -69,7 +70,7 @@ def best_cut(graph: PatchGraph, rank: np.ndarray, least_area: float) -> tuple[np
     r, k = rank.shape
     if r == 0:
         return np.zeros(k, bool), np.inf
-    low, high = np.sort(rank[:, graph.pairs], axis=2).transpose(2, 0, 1) + k * np.arange(r)[:, None]
+    low, high = np.sort(rank[:, graph.pairs], axis=2).transpose(2, 0, 1) + k * arange(r)[:, None]
     worth = np.tile(graph.length * np.maximum(np.exp(-graph.crease / SOFT), CHEAPEST), r)
     # A border is cut by the cuts behind the places low, low + 1, ..., high - 1 of the row.
     change = np.bincount(low.ravel(), worth, r * k) - np.bincount(high.ravel(), worth, r * k)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...arrays.indexing import bounds_of_each, sums_by
+from ...arrays.int64 import arange
 from ...arrays.pairs import distinct_pairs
 from ...mesh.triangles import TriMesh
 from .features import RegionMeasures, cut_features_, region_shape
@@ -146,7 +147,7 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
         ``_share_of_its_own``; not monotone.
     """
     n = len(graph.regions.alive)
-    strength = judge(graph, np.arange(len(graph.ends)))
+    strength = judge(graph, arange(len(graph.ends)))
     merges, strengths = [], []
     while len(merges) < n - 1 and np.isfinite(strength).any():
         again = set()

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.ties import in_steps
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
@@ -237,7 +238,7 @@ def _on_coarse_copy(
     progress(0.1)
     if not steps:
         return _cut_in_creases(sets, field, band_ratio, judges, progress)
-    owner, copy = np.arange(pyramid.mesh.n_vertices), pyramid.mesh
+    owner, copy = arange(pyramid.mesh.n_vertices), pyramid.mesh
     for step in steps:
         owner, copy = step.owner[owner], step.mesh
     coarse_field = _restrict(field, owner, sets.mesh.vertex_area, copy.n_vertices)

@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 
 from ...arrays.components import components, roots
 from ...arrays.indexing import largest_of_each, renumbered
+from ...arrays.int64 import arange, full
 from ...arrays.pairs import edge_keys
 from ...arrays.ties import rounded
 from ...mesh.face_graph import FaceGraph, connect, fill_unlabeled
@@ -116,7 +117,7 @@ class _LeadingImages:
     @cached_property
     def leader(self) -> np.ndarray:
         """(p,) int64, the image of each face whose cell, mirrored back, it takes."""
-        return self.image[self.element, np.arange(len(self.element))]
+        return self.image[self.element, arange(len(self.element))]
 
     @cached_property
     def leads(self) -> np.ndarray:
@@ -167,9 +168,9 @@ class _LeadingCells:
 def _leading_images(graph: FaceGraph, group: SymmetryGroup, side: np.ndarray, least: float) -> _LeadingImages:
     """The images of the faces. side : (p,) bool, the leading one. least : area from which regions are not small."""
     has = group.image >= 0
-    image = np.where(has, group.image, np.arange(len(side)))
+    image = np.where(has, group.image, arange(len(side)))
     element = group.first_onto(side)
-    without = ~has.all(axis=0) & ~side[image[element, np.arange(len(side))]]
+    without = ~has.all(axis=0) & ~side[image[element, arange(len(side))]]
     surrounded = without & ~_in_large_regions(graph, without, least)
     return _LeadingImages(group, has, image, element, surrounded)
 
@@ -226,7 +227,7 @@ def _graph_of_leaders(graph: FaceGraph, images: _LeadingImages) -> FaceGraph:
 def _connected_cells(leaders: FaceGraph, label: np.ndarray, leads: np.ndarray) -> np.ndarray:
     """Connected places of one candidate, (p,) int64, numbered from 0, of the faces that lead; -1 for others."""
     _, place = leaders.regions(label)
-    cell = np.full(len(label), -1)
+    cell = full(len(label), -1)
     cell[leads] = renumbered(place[leads])[1]
     return cell
 
@@ -242,7 +243,7 @@ def _joined(
     """
     touching, length = graph.boundaries(cell)
     goal = longest_neighbor(touching, length, len(area))
-    goal = np.where(small & ~gone & (goal >= 0) & (area[goal] > area), goal, np.arange(len(area)))
+    goal = np.where(small & ~gone & (goal >= 0) & (area[goal] > area), goal, arange(len(area)))
     return roots(goal)[_beside(touching, length, gone)]
 
 
@@ -251,7 +252,7 @@ def _beside(touching: np.ndarray, length: np.ndarray, gone: np.ndarray) -> np.nd
 
     touching, length : cells that share a boundary, and how long it is.
     """
-    around, inside = np.arange(len(gone)), gone.copy()
+    around, inside = arange(len(gone)), gone.copy()
     while True:
         rim = inside[touching[:, 0]] != inside[touching[:, 1]]
         goal = longest_neighbor(touching[rim], length[rim], len(gone))
@@ -316,7 +317,7 @@ def _cell_tables(
     """The cells of faces, by the names of these, (p,), and what was found of them; label : (p,), candidates found."""
     group, weight = images.group, graph.weight
     names, cell = renumbered(name)
-    every = np.arange(len(names))
+    every = arange(len(names))
     image = _places(names, leading.name_of_image(names[:, None], group.elements))
     _, to_leader = leading.of_names(names)
     # A cell that follows takes over all that is known of its leading image, instead of its own, nearly the same
@@ -343,6 +344,6 @@ def _shares(cell: np.ndarray, candidate_there: np.ndarray, weight: np.ndarray) -
     """
     order, n_cells = len(candidate_there), int(cell.max()) + 1
     area = np.bincount(cell, weight, n_cells)
-    row = cell + n_cells * np.arange(order)[:, None]
+    row = cell + n_cells * arange(order)[:, None]
     size = order * n_cells, int(candidate_there.max()) + 1
     return csr_array((np.tile(weight / area[cell], order), (row.ravel(), candidate_there.ravel())), size)

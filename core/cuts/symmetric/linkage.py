@@ -8,6 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.ties import rounded
 from ...mesh.face_graph import FaceGraph
 from ...mesh.triangles import vote_weights
@@ -110,7 +111,7 @@ class _Clusters:
     def __init__(self, cells: Cells, touching: np.ndarray, mean: np.ndarray) -> None:
         every = range(len(cells.area))
         self.area, self.image = vote_weights(cells.area).tolist(), cells.image.tolist()
-        self.mean, self.of = mean.copy(), np.arange(len(cells.area))
+        self.mean, self.of = mean.copy(), arange(len(cells.area))
         self.touching = [set(np.flatnonzero(row).tolist()) - {k} for k, row in enumerate(touching)]
         self.subgroups, self.composition = _Subgroups(cells.group), cells.group.composition.tolist()
         #: Of each cluster, the subgroup under which it is its own image, and what parts it from each of its images.

@@ -18,6 +18,7 @@ from itertools import product
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...mesh.face_graph import FaceGraph
 from ...mesh.labels import disagreement, majority
 from ...symmetry.group import SymmetryGroup
@@ -155,7 +156,7 @@ class _Mirroring:
     @cached_property
     def salience(self) -> np.ndarray:
         """(c, c) float64, of what parts two of the candidates found."""
-        return self.found.hierarchy.salience_table(np.arange(int(self.found.label.max()) + 1))
+        return self.found.hierarchy.salience_table(arange(int(self.found.label.max()) + 1))
 
     @cached_property
     def touching(self) -> FaceGraph:
@@ -177,7 +178,7 @@ class _Mirroring:
 def _without_crumbs(made: FaceCandidates, wedge: np.ndarray, mirroring: _Mirroring) -> FaceCandidates:
     """Candidates that a wedge has made, (p,) bool, with crumbs dissolved."""
     found, group = mirroring.found.parts(0.5), mirroring.group
-    leader = group.image[group.first_onto(wedge), np.arange(len(wedge))]
+    leader = group.image[group.first_onto(wedge), arange(len(wedge))]
     dissolved = np.zeros(len(wedge), bool)
     for _ in range(MOST_ROUNDS):
         more = _are_crumbs(made.graph, made.parts(0.5), found, leader) & ~dissolved
@@ -200,7 +201,7 @@ def _are_crumbs(graph: FaceGraph, part: np.ndarray, found: np.ndarray, leader: n
     image = majority(part, part[leader], graph.weight, len(area))
     # Measured on one side: in another pose a limb may be half as long.
     less = np.bincount(part, graph.weight[leader]) < 0.5 * area[image]
-    return (area < CRUMB * area_found)[part] & ((leader == np.arange(len(leader))) | less[part])
+    return (area < CRUMB * area_found)[part] & ((leader == arange(len(leader))) | less[part])
 
 
 def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...mesh.face_graph import FaceGraph
 from ...mesh.labels import majority
 from ..face_candidates import FaceCandidates
@@ -44,7 +45,7 @@ def symmetric_on_regions(
     kind = (label * (int(label.max()) + 2) + image) * 3 + np.sign(height).astype(np.int64)
     count, region = graph.regions(kind)
     of_region = np.zeros(count, np.int64)
-    of_region[region] = np.arange(graph.n_faces)  # any face of it
+    of_region[region] = arange(graph.n_faces)  # any face of it
     has = np.flatnonzero(twin >= 0)
     area = np.bincount(region, graph.area, count)
     touching = region[candidates.contacts]

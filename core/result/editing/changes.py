@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from ...arrays.components import components
 from ...arrays.indexing import inverse, renumbered
+from ...arrays.int64 import arange, full
 from ...arrays.pairs import both_ways, symmetric_matrix
 from ...cuts.hierarchy import Dendrogram
 from ...mesh.face_graph import FaceGraph
@@ -88,7 +89,7 @@ def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.
     reached = np.zeros(len(mask), bool)
     reached[decomposition.point_candidate[ours[graph.point_arc]]] = True
     reached[decomposition.node_candidate[graph.arcs[ours].ravel()]] = True
-    rest = mask & (np.arange(len(mask)) != start)
+    rest = mask & (arange(len(mask)) != start)
     return _strongest_cut(decomposition, mask, start, rest & reached if (rest & reached).any() else rest)
 
 
@@ -101,7 +102,7 @@ def _strongest_cut(
     """
     pairs, tree = _merging_inside(decomposition, mask)
     targets = np.flatnonzero(targets)
-    rows = tree.row_of(np.full(len(targets), start), targets)
+    rows = tree.row_of(full(len(targets), start), targets)
     rows = rows[np.isin(rows, tree.rows)]
     if not len(rows):
         return None
@@ -261,7 +262,7 @@ def two_sides(graph: FaceGraph, contacts: np.ndarray, inside: np.ndarray, side: 
     touching, length = label_boundaries(region, graph.pairs[within], graph.length[within])
     own = np.zeros(count, np.int64)
     own[region[side]] = 1
-    known = np.full(count, -1)
+    known = full(count, -1)
     along = touching[length.argmax()]
     known[along] = own[along]
     # From one side to the other in turn: what touches one of the two is no piece of the other.

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays.indexing import last_of_each
+from ...arrays.int64 import arange
 from ...arrays.pairs import both_ways
 from ...arrays.vectors import row_products
 from ...cuts.hierarchy import Dendrogram, Hierarchy
@@ -52,7 +53,7 @@ def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceG
     of = whole[left][face]
     order = np.lexsort((-np.bincount(piece, graph.area)[number], of))
     rank = np.zeros(int(piece.max()) + 1, np.int64)
-    rank[number[order]] = np.arange(len(order)) - np.searchsorted(of[order], of[order])
+    rank[number[order]] = arange(len(order)) - np.searchsorted(of[order], of[order])
     return np.where(left, rank[piece], 0)
 
 
@@ -114,11 +115,11 @@ def scraps_joined(finer: Decomposition, number: np.ndarray, before: np.ndarray) 
     small = area < SCRAP * np.bincount(was, area)[was]
     scrap = ~pinned & small & (goes >= 0) & pinned[goes]
     longest_last = np.argsort(np.tile(finer.candidate_pair_length[joins], 2), kind="stable")
-    goal = spread(np.where(scrap, -1, np.arange(count)), *both_ways(pairs[joins])[longest_last].T)
+    goal = spread(np.where(scrap, -1, arange(count)), *both_ways(pairs[joins])[longest_last].T)
     scraps = np.flatnonzero(scrap & (goal >= 0))
     if not len(scraps):
         return finer
-    without = np.arange(count)
+    without = arange(count)
     without[scraps] = goes[scraps]
     old = finer.hierarchy
     merges = np.concatenate([np.stack([goal[scraps], scraps], axis=1), without[old.merges]])
@@ -159,11 +160,11 @@ def split_candidates(
     cut = np.flatnonzero((inside > 0) & (inside < size))
     if not len(cut):
         return decomposition
-    half = np.arange(decomposition.n_candidates)  # for each candidate, the one of its given faces
-    half[cut] = decomposition.n_candidates + np.arange(len(cut))
+    half = arange(decomposition.n_candidates)  # for each candidate, the one of its given faces
+    half[cut] = decomposition.n_candidates + arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    sides = FaceSides(table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges))))
+    sides = FaceSides(table.corner_face, table.corner_edge, table.edge_length(arange(len(table.edges))))
     pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, sides)
     members, at_junction = junctions(candidates, sides)
     area = np.bincount(candidates, graph.area, count)

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays.indexing import last_of_each
+from ...arrays.int64 import arange, full
 from ...arrays.pairs import distinct_pairs
 from ...mesh.face_graph import FaceGraph, connect
 from ..numbering import NumberedParts
@@ -126,14 +127,14 @@ def _without_strays(change: MirroredChange, image_only: bool) -> np.ndarray:
     number[region] = both
     # Of each part, where strays go back to: the largest, of those that stay if there are some.
     main = last_of_each(number, ~stray, area, count=int(number.max()) + 1)[number]
-    stray &= main != np.arange(len(stray))
+    stray &= main != arange(len(stray))
     # Nothing goes to another part than those that its own part is cut into.
     touching = change.touching
     first, second = touching.pairs.T
     near = (before[first] == before[second]) | (region[first] == region[second])
     weight = np.where(stray[region], 1e-9, 1.0) * graph.area  # so that it is the strays that move
     around = FaceGraph(graph.n_faces, touching.pairs[near], touching.length[near], weight)
-    return number[connect(around, np.where(stray, main, np.arange(len(stray)))[region])]
+    return number[connect(around, np.where(stray, main, arange(len(stray)))[region])]
 
 
 def _strays(change: MirroredChange, region: np.ndarray) -> np.ndarray:
@@ -194,7 +195,7 @@ def on_both_sides(
     result = after.copy()
     moved = after != before
     of_new: dict[int, int] = {}
-    image_of = np.full(int(max(before.max(), *twin_number)) + 1, -1)
+    image_of = full(int(max(before.max(), *twin_number)) + 1, -1)
     image_of[list(twin_number)] = list(twin_number.values())
     for number in np.unique(after[moved & (twin >= 0)]).tolist():
         mine = np.flatnonzero(moved & (twin >= 0) & (after == number))

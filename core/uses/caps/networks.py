@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.int64 import arange, cumsum
 from ...arrays.ties import rounded
 from ...arrays.vectors import lengths
 
@@ -35,7 +36,7 @@ def nested_sides(places: np.ndarray, curves: np.ndarray) -> np.ndarray:
         return none
     # No side has the place in the middle, so that no two of them are the two sides of one division.
     middle = int(rounded(lengths(places - places.mean(axis=0))).argmin())
-    inside = (np.arange(1 << (n - 1))[:, None] >> np.arange(n - 1)) & 1 == 1
+    inside = (arange(1 << (n - 1))[:, None] >> arange(n - 1)) & 1 == 1
     inside = np.insert(inside, middle, False, axis=1)
     size = inside.sum(axis=1)
     inside = inside[(size >= 2) & (size <= n - 2)]
@@ -57,7 +58,7 @@ def nested_sides(places: np.ndarray, curves: np.ndarray) -> np.ndarray:
 
 def own_places(sides: np.ndarray) -> np.ndarray:
     """The places of each side that no smaller one has, and last those that are in none: (s + 1, n) bool."""
-    before = np.cumsum(sides, axis=0) - sides
+    before = cumsum(sides, axis=0) - sides
     return np.concatenate([sides & (before == 0), ~sides.any(axis=0, keepdims=True)])
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...arrays.indexing import sums_by
+from ...arrays.int64 import arange, cumsum
 from ...arrays.pairs import symmetric_matrix
 from ...arrays.vectors import across, cross, lengths, row_products
 from ...mesh.triangles import corner_sides
@@ -97,7 +98,8 @@ def away_from_curve(flat: np.ndarray, before: np.ndarray | None = None, density:
     low, high = flat.min(axis=0), flat.max(axis=0)
     levels = [np.empty((0, 2))]
     while step < 2.0:
-        x, y = (np.arange(a, b + step, step * s) for a, b, s in zip(low, high, (1.0, np.sqrt(0.75)), strict=True))
+        x, y = (np.arange(a, b + step, step * share, np.float64)
+                for a, b, share in zip(low, high, (1.0, np.sqrt(0.75)), strict=True))
         grid = np.stack(np.meshgrid(x, y), axis=-1)
         grid[1::2, :, 0] += step / 2
         grid = grid.reshape(-1, 2)
@@ -143,17 +145,17 @@ def spread(weights: csr_array, values: np.ndarray, fixed: np.ndarray | None = No
     from scipy.sparse.linalg import splu
 
     n = weights.shape[0]
-    known = np.arange(n) < len(values) if fixed is None else fixed
+    known = arange(n) < len(values) if fixed is None else fixed
     free = np.flatnonzero(~known)
     every = np.empty((n, values.shape[1]))
     every[known] = values
     if len(free) and values.shape[1]:
         # By arrays: to take rows and columns out of a small sparse matrix takes several times as long as to solve it.
-        m, place = len(free), np.cumsum(~known) - 1
-        row, column = np.repeat(np.arange(n), np.diff(weights.indptr)), weights.indices
+        m, place = len(free), cumsum(~known) - 1
+        row, column = np.repeat(arange(n), np.diff(weights.indptr)), weights.indices
         here = ~known[row]
         row, column, weight = place[row[here]], column[here], weights.data[here]
-        inner, own = ~known[column], np.arange(m)
+        inner, own = ~known[column], arange(m)
         entries = np.concatenate([np.bincount(row, weight, m), -weight[inner]])
         ends = np.concatenate([own, row[inner]]), np.concatenate([own, place[column[inner]]])
         from_known = sums_by(row[~inner], weight[~inner, None] * every[column[~inner]], m)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays.indexing import ranges, renumbered
+from ...arrays.int64 import cumsum
 from ...arrays.vectors import cross
 from ...mesh.corners import CornerTable
 
@@ -86,7 +87,7 @@ def _around(table: CornerTable, vertices: np.ndarray, rings: int) -> np.ndarray:
 
     n_corners = len(table.corner_vertex)
     count = np.bincount(table.corner_face, minlength=table.n_faces)
-    end = np.cumsum(count)
+    end = cumsum(count)
     first = end - count
     of_faces = csr_array((np.ones(n_corners, np.int8), table.corner_vertex, np.append(0, end)),
                          shape=(table.n_faces, len(table.vertices)))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.indexing import renumbered, stable_order
+from ...arrays.int64 import arange
 from ...mesh.corners import CornerTable
 from .method import CleanCuts
 
@@ -78,7 +79,7 @@ def curves_of(table: CornerTable, labels: np.ndarray, cuts: CleanCuts) -> Curves
     along = table.edges[edge].astype(np.int64)
     along[crossed, 1 - half[crossed]] = n + edge[crossed]
     two, three = (np.flatnonzero(fragments[cuts.face] == count).reshape(-1, count) for count in (2, 3))
-    center = n + len(table.edges) + np.repeat(np.arange(len(three)), 3)
+    center = n + len(table.edges) + np.repeat(arange(len(three)), 3)
     segments = np.concatenate([along, cuts.start[two], np.stack([center, cuts.start[three].ravel()], axis=1)])
     before = np.roll(cuts.label[three], 1, axis=1).ravel()
     pair = np.concatenate([np.stack([label[apart], label[apart + 1]], axis=1), cuts.label[two],
@@ -133,7 +134,7 @@ def _fragment_labels(cuts: CleanCuts, face: np.ndarray, point: np.ndarray, divid
     key = face * n_points + point
     place = order[np.minimum(np.searchsorted(begin, key, sorter=order), len(rows) - 1)]
     begins = begin[place] == key
-    latest = np.maximum.accumulate(np.where(begins, np.arange(len(face)), -1))
+    latest = np.maximum.accumulate(np.where(begins, arange(len(face)), -1))
     row = np.where(latest >= 0, rows[place[latest]], -1)
     last = np.searchsorted(cuts.face, face, side="right") - 1  # what comes before the first begins with the last
     return cuts.label[np.where((row >= 0) & (cuts.face[row] == face), row, last)]

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays.indexing import begins_run, inverse, stable_order
+from ...arrays.int64 import arange, cumsum
 from ...mesh.corners import next_of_owner
 from ...mesh.labels import majority
 from .band import Band
@@ -83,8 +84,8 @@ def divide(band: Band, sides: Sides) -> Division:
     changes &= ~whole[face]
     # A face that stays whole is one fragment, which begins where the face does.
     begins = changes | (begins_run(face) & (np.bincount(face[changes], minlength=len(count)) == 0)[face])
-    last = np.searchsorted(face[begins], np.arange(len(count)), side="right") - 1
-    fragment = np.cumsum(begins) - 1
+    last = np.searchsorted(face[begins], arange(len(count)), side="right") - 1
+    fragment = cumsum(begins) - 1
     wrapped = (fragment < 0) | (face[np.flatnonzero(begins)[fragment]] != face)
     return Division(face, point, side, label, begins, np.where(wrapped, last[face], fragment), odd)
 
@@ -93,7 +94,7 @@ def _portions(band: Band, sides: Sides) -> tuple[np.ndarray, ...]:
     """Face, first point, side and the one or two labels, the lower first, of each portion, (o,) int64 each."""
     table = band.table
     n, crossed = len(band.vertices), ~np.isnan(sides.share)
-    corner, following = np.arange(len(table.corner_face)), table.next_corner
+    corner, following = arange(len(table.corner_face)), table.next_corner
     here, there = table.corner_vertex, table.corner_vertex[following]
     cut = crossed[table.corner_edge]
     forward = table.edges[table.corner_edge, 0] == here

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import last_of_each, renumbered, sums_by
+from ...arrays.int64 import arange, full
 from ...mesh.corners import next_of_owner
 from .band import Band
 from .division import Division
@@ -61,7 +62,7 @@ def _groups(band: Band, faces: np.ndarray) -> np.ndarray:
     used, vertex = renumbered(table.corner_vertex[corner])
     same = table.corner_face[corner[1:]] == table.corner_face[corner[:-1]]
     _, label = components(len(used), vertex[1:][same], vertex[:-1][same])
-    group = np.full(len(band.vertices), -1)
+    group = full(len(band.vertices), -1)
     group[used] = label
     return group
 
@@ -85,7 +86,7 @@ def _turning_after(group: np.ndarray, band: Band, sides: Sides, division: Divisi
     points[n + edges :] = middle / np.maximum(np.bincount(inner[:, 0], minlength=len(middle)), 1)[:, None]
     first = np.zeros(len(band.faces), np.int64)
     first[table.corner_face] = table.corner_vertex
-    vertex = np.concatenate([np.arange(n), a, first])
+    vertex = np.concatenate([arange(n), a, first])
     point, angle = turning(points, segments)
     of = group[vertex[point]]
     return np.bincount(of[of >= 0], angle[of >= 0], int(group.max(initial=-1)) + 1)
@@ -119,7 +120,7 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     # lost in one try, and the other in the next, nothing of the part would be left.
     alive = np.zeros(count, bool)
     alive[before[division.face[division.label == band.labels[division.face]]]] = True
-    largest = last_of_each(name, np.bincount(before, minlength=count), -np.arange(count), count=len(band.names))
+    largest = last_of_each(name, np.bincount(before, minlength=count), -arange(count), count=len(band.names))
     lost = np.zeros(count, bool)
     lost[largest] = ~alive[largest]
     label = division.label[division.begins]
@@ -132,7 +133,7 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     order = np.lexsort((-size, name))
     first = np.searchsorted(name[order], name[order])
     off = np.zeros(count, bool)
-    off[order] = np.arange(count) - first >= n_before[name[order]]
+    off[order] = arange(count) - first >= n_before[name[order]]
     torn = lost[before]
     torn[division.face[off[after[division.fragment]]]] = True
     return torn

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.indexing import place_among
+from ...arrays.int64 import full
 from ...arrays.pairs import both_ways
 from ...arrays.vectors import unit
 from .band import Band
@@ -45,7 +46,7 @@ class Pins:
         both = np.flatnonzero(sharp & (low < high))
         point, angle = turning(band.table.vertices, band.table.edges[both])
         ends = band.table.edges[both].ravel()
-        pair = np.full((2, len(band.vertices)), -1)
+        pair = full((2, len(band.vertices)), -1)
         other = pair.copy()
         for pairs, order in ((pair, slice(None)), (other, slice(None, None, -1))):
             pairs[:, ends[order]] = np.repeat(np.stack([low[both], high[both]]), 2, axis=1)[:, order]

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import largest_of_each, place_among, sums_by
+from ...arrays.int64 import full
 from ...arrays.pairs import both_ways
 from ...arrays.vectors import middles_of_each, second_moments_of_each
 from .band import Band
@@ -58,13 +59,13 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
     n = len(band.vertices)
     crossed = np.flatnonzero(~np.isnan(share))
     if not len(crossed):
-        none = np.full(n, -1)
+        none = full(n, -1)
         return Planes(none, np.zeros(n), none, none)
     curve = _curves(band, crossed)
     count = curve.max() + 1
     center, normal, away, fits = _nearest_planes(band, crossed, share[crossed], curve, bent)
     pair = np.sort(top[band.table.edges[crossed]], axis=1)
-    low, high = np.full((count, 2), len(band.names)), np.full((count, 2), -1)
+    low, high = full((count, 2), len(band.names)), full((count, 2), -1)
     np.minimum.at(low, curve, pair)
     np.maximum.at(high, curve, pair)
     fits &= (low == high).all(axis=1)
@@ -116,7 +117,7 @@ def _owners(band: Band, crossed: np.ndarray, curve: np.ndarray, rings: np.ndarra
 
     rings : (curves,) int64, how many edges each curve reaches; one of 0 has no vertices but those at its edges.
     """
-    number, ring = np.full(len(band.vertices), -1), np.zeros(len(band.vertices), np.int64)
+    number, ring = full(len(band.vertices), -1), np.zeros(len(band.vertices), np.int64)
     number[band.table.edges[crossed]] = curve[:, None]
     start, end = both_ways(band.table.edges).T
     for step in range(1, int(rings.max(initial=0)) + 1):

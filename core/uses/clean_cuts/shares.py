@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
 from ...arrays.indexing import last_of_each, sums_by
+from ...arrays.int64 import arange
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
 from ...arrays.vectors import cross, lengths, row_products
 from ...mesh.triangles import corner_sides
@@ -106,7 +107,7 @@ def diffusing(band: Band, diffusion: Diffusion, pins: Pins, steps: int) -> Steps
         shares = walk @ shares + halves
     yield 0.9
     shares.sort_indices()
-    vertex = np.repeat(np.arange(shape[0]), np.diff(shares.indptr))
+    vertex = np.repeat(arange(shape[0]), np.diff(shares.indptr))
     key = vertex * shape[1] + shares.indices
     found = Shares(shape[1], key, shares.data)
     return replace(found, value=shares.data + _shifts(band, found)[shares.indices])
@@ -143,6 +144,6 @@ def _shifts(band: Band, shares: Shares) -> np.ndarray:
     # As nearly as all borders allow, the shorter ones less.
     system = np.zeros((len(pairs), len(band.names)))
     weight = np.sqrt(total / total.max())
-    system[np.arange(len(pairs)), pairs[:, 0]] = -weight
-    system[np.arange(len(pairs)), pairs[:, 1]] = weight
+    system[arange(len(pairs)), pairs[:, 0]] = -weight
+    system[arange(len(pairs)), pairs[:, 1]] = weight
     return np.linalg.lstsq(system, weight * mean, rcond=None)[0]

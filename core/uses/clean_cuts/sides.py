@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.int64 import full
 from ...arrays.pairs import both_ways
 from ...steps import Steps, stretched
 from .band import Band
@@ -73,7 +74,7 @@ def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: n
     a, b = band.table.edges.T
     apart = top[a] != top[b]
     start, end = both_ways(band.table.edges[apart]).T
-    least, most = np.full(n, len(band.names)), np.full(n, -1)
+    least, most = full(n, len(band.names)), full(n, -1)
     np.minimum.at(least, start, top[end])
     np.maximum.at(most, start, top[end])
     close = np.zeros(n, bool)

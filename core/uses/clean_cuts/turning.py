@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays.indexing import stable_order
+from ...arrays.int64 import cumsum
 
 
 def turning(points: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -28,7 +29,7 @@ def turning(points: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, np.nd
     order = stable_order(ends)
     count = np.bincount(ends, minlength=len(points))
     point = np.flatnonzero(count == 2)
-    place = np.cumsum(count)[point] - 2
+    place = cumsum(count)[point] - 2
     other = segments[:, ::-1].ravel()[order]
     back, ahead = points[point] - points[other[place]], points[other[place + 1]] - points[point]
     angle = np.arctan2(np.linalg.norm(np.cross(back, ahead), axis=1), (back * ahead).sum(axis=1))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.ties import rounded
 from ...arrays.vectors import cross_in_plane
 
@@ -122,8 +123,8 @@ class CapGrid:
         """A grid over the cap, (k, 2) float64, and how wide its meshes are."""
         low, high = self.seen[..., :2].min(axis=(0, 1)), self.seen[..., :2].max(axis=(0, 1))
         step = max(self.size / _ALONG, float(np.sqrt(np.prod(high - low) / _PLACES)))
-        count = np.maximum(np.ceil((high - low) / step).astype(int), 1)
-        lines = [(low[i] + high[i]) / 2 + step * (np.arange(count[i]) - (count[i] - 1) / 2) for i in (0, 1)]
+        count = np.maximum(np.ceil((high - low) / step).astype(np.int64), 1)
+        lines = [(low[i] + high[i]) / 2 + step * (arange(count[i]) - (count[i] - 1) / 2) for i in (0, 1)]
         return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 2), step
 
     def heights(self, flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -133,7 +134,7 @@ class CapGrid:
         twice = cross_in_plane(b - a, c - a)
         solid = np.abs(twice) > 1e-12 * self.size**2
         a, b, c, twice = a[solid], b[solid], c[solid], twice[solid]
-        for part in np.array_split(np.arange(len(flat)), len(flat) * len(a) // 1_000_000 + 1):
+        for part in np.array_split(arange(len(flat)), len(flat) * len(a) // 1_000_000 + 1):
             p = flat[part, None]
             v = cross_in_plane(p - a[:, :2], (c - a)[:, :2]) / twice
             w = cross_in_plane((b - a)[:, :2], p - a[:, :2]) / twice

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.ties import rounded
 from .cap import Cap, CapGrid, cap_axes
 from .room import Body, Joint, Room, Wanted
@@ -78,7 +79,7 @@ def _candidates(grid: CapGrid, bodies: tuple[Body, Body]) -> tuple[np.ndarray, n
     """Places on the cap inside of both pieces, (k, 2), and how far the rims are; the deepest one first."""
     flat, step = grid.places()
     flat, room = _with_room(grid, bodies, np.concatenate([flat, np.zeros((1, 2))]))
-    around = np.stack(np.meshgrid(*[np.arange(-2, 3)] * 2, indexing="ij"), axis=-1).reshape(-1, 2)
+    around = np.stack(np.meshgrid(*[arange(-2, 3)] * 2, indexing="ij"), axis=-1).reshape(-1, 2)
     for _ in range(_FINER):
         if not len(flat):
             break

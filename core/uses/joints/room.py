@@ -13,6 +13,7 @@ from typing import Protocol
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.ties import rounded
 from .cap import CapGrid
 from .shapes import REACH, Kind
@@ -162,7 +163,7 @@ def _under(grid: CapGrid, flat: np.ndarray, reach: float) -> tuple[np.ndarray, n
 
 def _disk(radius: float) -> np.ndarray:
     """The middle, eight places around it half way out, and sixteen at the rim of a disk, (25, 2) float64."""
-    inner, outer = (2 * np.pi * np.arange(n) / n for n in (8, 16))
+    inner, outer = (2 * np.pi * arange(n) / n for n in (8, 16))
     return np.concatenate([[[0.0, 0.0]], radius / 2 * np.stack([np.cos(inner), np.sin(inner)], axis=1),
                            radius * np.stack([np.cos(outer), np.sin(outer)], axis=1)])
 
@@ -178,7 +179,7 @@ class _Trial:
 
     def depth(self, body: Body, height: np.ndarray, sign: float, deepest: float) -> np.ndarray:
         """How far the disks can go into a piece from some heights before the wall is too thin, (k,) float64."""
-        share = np.arange(1, _LEVELS + 1) / _LEVELS
+        share = arange(1, _LEVELS + 1) / _LEVELS
         levels = height[:, None] + sign * deepest * np.concatenate([[1e-3], share])
         fine = self._walled(body, levels)
         fine &= self._inside(body, levels[:, :1])
@@ -220,7 +221,7 @@ def _packed(flat: np.ndarray, room: np.ndarray, count: int, apart: float) -> np.
     """Which places give so many joints the most room, from the surface and from each other; indices, or none."""
     if len(flat) < count:
         return np.empty(0, np.int64)
-    few = np.arange(len(flat)) if count < 3 else np.arange(0, len(flat), len(flat) // 32 + 1)
+    few = arange(len(flat)) if count < 3 else arange(0, len(flat), len(flat) // 32 + 1)
     groups = np.array(list(combinations(few.tolist(), count)))
     if not len(groups):
         return np.empty(0, np.int64)
@@ -232,7 +233,7 @@ def _packed(flat: np.ndarray, room: np.ndarray, count: int, apart: float) -> np.
         return np.empty(0, np.int64)
     most = np.minimum(room[groups].min(axis=1), between / 2)
     # Of those with nearly the most room the ones farthest apart, and of these the ones around the middle of the cap.
-    kept = np.arange(len(groups))
+    kept = arange(len(groups))
     for value in (most, between):
         kept = kept[value[kept] >= _NEARLY * value[kept].max()]
     off = np.linalg.norm(flat[groups[kept]].mean(axis=1), axis=1)

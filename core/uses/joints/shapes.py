@@ -8,6 +8,8 @@ from enum import Enum
 
 import numpy as np
 
+from ...arrays.int64 import arange
+
 
 class Kind(Enum):
     """What joins two pieces."""
@@ -24,7 +26,7 @@ class Kind(Enum):
         return self in {Kind.DOWEL, Kind.MAGNET}
 
 
-_ROUND = 2 * np.pi * (np.arange(48) + 0.5) / 48
+_ROUND = 2 * np.pi * (arange(48) + 0.5) / 48
 _CIRCLE = np.stack([np.cos(_ROUND), np.sin(_ROUND)], axis=1) / np.cos(np.pi / 48)
 _SQUARE = np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
 # As the tail of a dove: one way round only.
@@ -107,8 +109,8 @@ def _stacked(rings: list[tuple[np.ndarray, float]]) -> Solid:
     """Rings of equally many points one above the other, closed at both ends."""
     k = len(rings[0][0])
     points = np.concatenate([np.column_stack([ring, np.full(k, z)]) for ring, z in rings])
-    step = np.roll(np.arange(k), -1)
-    around = [np.stack([a + np.arange(k), a + step, a + k + step, a + k + np.arange(k)], axis=1)
+    step = np.roll(arange(k), -1)
+    around = [np.stack([a + arange(k), a + step, a + k + step, a + k + arange(k)], axis=1)
               for a in range(0, k * (len(rings) - 1), k)]
     ends = [tuple(range(k - 1, -1, -1)), tuple(range(k * (len(rings) - 1), k * len(rings)))]
     return Solid(points, (*map(tuple, np.concatenate(around).tolist()), *ends))

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays.indexing import hashed_sets
+from ...arrays.int64 import arange, full
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane
 
@@ -37,11 +38,11 @@ def image_corners(
         For each corner of a part on the side of -1 all of whose faces have an exact image, the corner that it is the
         image of; -1 for all other corners.
     """
-    faces, corner_face = np.arange(table.n_faces), table.corner_face
+    faces, corner_face = arange(table.n_faces), table.corner_face
     total = np.bincount(corner_face, minlength=table.n_faces)
     first = np.searchsorted(corner_face, faces)
     points = table.vertices[table.corner_vertex]
-    image = np.full(len(points), -1)
+    image = full(len(points), -1)
     fits = (side[labels] == -1) & (face_twin >= 0) & (total == total[face_twin])
     corner = np.flatnonzero(fits[corner_face])
     wanted, twin = plane.mirrored(points[corner]), face_twin[corner_face[corner]]
@@ -79,12 +80,12 @@ def double_corners(table: CornerTable, among: np.ndarray) -> np.ndarray:
     faces = np.flatnonzero(among)
     _, earliest, group = np.unique(hashed_sets(owner, table.corner_vertex, table.n_faces)[faces], return_index=True,
                                    return_inverse=True)
-    original = np.arange(table.n_faces)
+    original = arange(table.n_faces)
     original[faces] = faces[earliest[group.ravel()]]
     # By vertex, the corners of both faces are in the same order.
     order = np.lexsort((table.corner_vertex, owner))
-    start = np.searchsorted(owner, np.arange(table.n_faces))
-    corner = np.flatnonzero((original != np.arange(table.n_faces))[owner])
-    first = np.full(len(owner), -1)
+    start = np.searchsorted(owner, arange(table.n_faces))
+    corner = np.flatnonzero((original != arange(table.n_faces))[owner])
+    first = full(len(owner), -1)
     first[order[corner]] = order[corner - start[owner[corner]] + start[original[owner[corner]]]]
     return first

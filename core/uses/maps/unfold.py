@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...arrays.components import components
 from ...arrays.indexing import largest_of_each, last_of_each
+from ...arrays.int64 import arange, full
 from ...arrays.pairs import edge_keys
 from ...mesh.corners import CornerTable
 from .conformal import ConformalFactor
@@ -62,7 +63,7 @@ def unfolding_seams(table: CornerTable, cut: np.ndarray) -> np.ndarray:
         worst = _most_uneven(charts, scale, table.edges[inner])
         if not len(worst):
             break
-        uneven = np.isin(np.arange(charts.count), charts.of_vertex[worst])
+        uneven = np.isin(arange(charts.count), charts.of_vertex[worst])
         _, before, _ = _shortest_paths(len(table.vertices), table.edges, cost, inner, np.flatnonzero(used & fixed))
         _follow(seams, worst, before, table.edges)
         fixed[table.edges[seams].ravel()] = True
@@ -105,7 +106,7 @@ def opening_seams(table: CornerTable, cut: np.ndarray, cost: np.ndarray | None =
         Edges to be cut in addition.
     """
     edges = table.edges
-    cost = table.edge_length(np.arange(len(edges))) if cost is None else cost
+    cost = table.edge_length(arange(len(edges))) if cost is None else cost
     charts = _Charts.of(table, cut)
     distance, before, tree = _shortest_paths(len(table.vertices), edges, cost, charts.inner, charts.roots)
     inner, pairs = charts.inner, charts.pairs
@@ -148,7 +149,7 @@ def seam_cost(table: CornerTable) -> np.ndarray:
     angle[edge] = np.arccos((normal[pairs[:, 0]] * normal[pairs[:, 1]]).sum(axis=1).clip(-1.0, 1.0))
     faces_at = table.n_edge_faces
     seen = -np.bincount(table.corner_edge, hidden[table.corner_face], len(table.edges)) / np.maximum(faces_at, 1)
-    return table.edge_length(np.arange(len(table.edges))) * (
+    return table.edge_length(arange(len(table.edges))) * (
         (1 - _CREASED * np.minimum(angle / _SHARP, 1.0)) * (1 + _SEEN * seen))
 
 
@@ -211,7 +212,7 @@ def _shortest_paths(
     distance, previous, _ = dijkstra(
         graph, directed=False, indices=roots, return_predecessors=True, min_only=True
     )
-    before = np.full(n, -1)
+    before = full(n, -1)
     reached = np.flatnonzero(previous >= 0)
     step = edge_keys(reached, previous[reached], count=n)
     before[reached] = inner[order[np.searchsorted(key[order], step)]]

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import largest_of_each, sums_by
+from ...arrays.int64 import cumsum, full
 from ...arrays.pairs import distinct_pairs
 from ...arrays.vectors import cross, middles_of_each, row_products, second_moments_of_each
 from ...mesh.corners import CornerTable
@@ -63,7 +64,7 @@ def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
     pairs, joint, middle, weight = _cuts(table, labels)
     contacts = touching_groups(table, labels, pairs)
     pairs = np.concatenate([pairs, *([pair] for pair, _ in contacts)])
-    joint = np.concatenate([joint, *(np.full(len(some), len(pairs) - len(contacts) + k)
+    joint = np.concatenate([joint, *(full(len(some), len(pairs) - len(contacts) + k)
                                      for k, (_, some) in enumerate(contacts))])
     weight = np.concatenate([weight, *(np.ones(len(some)) for _, some in contacts)])
     middle = np.concatenate([middle, *(some for _, some in contacts)])
@@ -88,7 +89,7 @@ def _cuts(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarra
     length = np.bincount(joint, weight, count)
     kept = length >= _CRUMB * largest_of_each(pair, length, len(pairs))[pair]
     some = kept[joint]
-    return (pairs[pair[kept]], (np.cumsum(kept) - 1)[joint[some]], table.vertices[table.edges[cut[some]]].mean(axis=1),
+    return (pairs[pair[kept]], (cumsum(kept) - 1)[joint[some]], table.vertices[table.edges[cut[some]]].mean(axis=1),
             weight[some])
 
 

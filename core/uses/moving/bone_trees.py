@@ -10,6 +10,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
 from ...arrays.indexing import sums_by
+from ...arrays.int64 import full
 from ...arrays.pairs import distinct_pairs
 from .part_images import PartImages
 
@@ -43,7 +44,7 @@ def part_tree(count: int, pairs: np.ndarray, length: np.ndarray, height: np.ndar
     graph = coo_matrix((rate, pairs.T), (count, count)).tocsr()
     kept = minimum_spanning_tree(graph)
     _, piece = connected_components(kept, directed=False)
-    parent = np.full(count, -1)
+    parent = full(count, -1)
     order = []
     for index in range(piece.max() + 1):
         members = np.flatnonzero(piece == index)
@@ -71,7 +72,7 @@ def even_tree(
     for part in order:
         while middle[part] and before[part] >= 0 and beside[before[part]]:
             before[part] = before[before[part]]
-    parent, both = np.full(len(images.twin), -1), []
+    parent, both = full(len(images.twin), -1), []
     for part in order:
         mine, above = int(used[part]), int(used[before[part]]) if before[part] >= 0 else -1
         image = int(images.image[mine])

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.pairs import distinct_pairs
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
@@ -160,7 +161,7 @@ class _Joints:
 
     def by_cut(self, parent: np.ndarray) -> np.ndarray:
         """Which parts are not held by their parents through a contact alone, (count,) bool."""
-        pairs = np.sort(np.stack([np.arange(len(parent)), parent], axis=1), axis=1)
+        pairs = np.sort(np.stack([arange(len(parent)), parent], axis=1), axis=1)
         return np.array([tuple(pair) not in self.contacts for pair in pairs.tolist()])
 
     def place(self, part: int, parent: int, beyond: np.ndarray, otherwise: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
+from ...arrays.int64 import arange
 from ...mesh.corners import CornerTable
 
 # Parts that no cuts connect touch if they come nearer than this share of the diagonal; they hold together where they
@@ -81,7 +82,7 @@ def _lattice(corners: np.ndarray, spacing: float) -> np.ndarray:
     steps = np.ceil(longest / spacing).astype(np.int64)  # at most 1 / _NEAR: nothing is longer than the diagonal
     found = [np.empty((0, 3))]
     for n in np.unique(steps[steps > 1]).tolist():
-        i, j = np.divmod(np.arange((n + 1) ** 2), n + 1)
+        i, j = np.divmod(arange((n + 1) ** 2), n + 1)
         weight = np.stack([i, j, n - i - j], axis=1)[i + j <= n] / n
         found.append((weight @ corners[steps == n]).reshape(-1, 3))
     return np.concatenate(found)

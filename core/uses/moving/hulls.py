@@ -14,6 +14,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered, rounded_order, stable_order
+from ...arrays.int64 import arange
 from ...arrays.pairs import distinct_pairs
 from ...arrays.vectors import cross, distances_between, inner_products, middles_of_each, second_moments
 from ...mesh.corners import CornerTable
@@ -220,7 +221,7 @@ def _slabs(piece: _Surface, height: np.ndarray, levels: np.ndarray) -> list[np.n
     directions = _directions(MOST_CORNERS).T
     place = np.searchsorted(levels, height)
     order = stable_order(place)
-    slabs = np.split(piece.points[order], np.searchsorted(place[order], np.arange(1, len(levels) + 1)))
+    slabs = np.split(piece.points[order], np.searchsorted(place[order], arange(1, len(levels) + 1)))
     start, end = piece.triangles.ravel(), np.roll(piece.triangles, -1, axis=1).ravel()
     # Of an edge that two triangles go along, one direction is enough.
     rising = place[start] < place[end]
@@ -256,7 +257,7 @@ def _below(piece: _Surface, axis: np.ndarray, level: float) -> _Surface:
         crossed = np.flatnonzero(inside.sum(axis=1) == count)
         alone = (inside[crossed] == (count == 1)).argmax(axis=1)
         a, b, c = (piece.triangles[crossed, (alone + k) % 3] for k in range(3))
-        first = len(points) + np.arange(len(crossed))
+        first = len(points) + arange(len(crossed))
         points = np.concatenate([points, *(_between(piece.points, height, a, other, level) for other in (b, c))])
         every = np.stack([a, b, c, first, first + len(crossed)], axis=1)
         found += [every[:, corner] for corner in corners]
@@ -343,7 +344,7 @@ def _solid(points: np.ndarray, size: float) -> np.ndarray:
 
 def _directions(count: int) -> np.ndarray:
     """Directions that are spread evenly over the sphere, (count, 3), on a spiral."""
-    place = np.arange(count) + 0.5
+    place = arange(count) + 0.5
     height, angle = 1 - 2 * place / count, np.pi * (1 + np.sqrt(5)) * place
     radius = np.sqrt(1 - height**2)
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...mesh.cut_edges import CutEdges
 from .bone_trees import following
 from .bones import Bones, BoneSurface, border_of, part_bones
@@ -37,7 +38,7 @@ def limb_bones(surface: BoneSurface) -> tuple[Bones, np.ndarray, np.ndarray]:
     part_bone : (count,) int64
         The bone that moves each part.
     """
-    surface, owner = surface.joined(), np.arange(int(surface.labels.max()) + 1)
+    surface, owner = surface.joined(), arange(int(surface.labels.max()) + 1)
     while True:
         bone_part, part_bone = np.unique(owner, return_inverse=True)
         images = None if surface.images is None else surface.images.of_bones(bone_part, part_bone)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.int64 import arange
 from ...arrays.vectors import middles_of_each
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane
@@ -62,17 +63,17 @@ class PartImages:
     @property
     def image(self) -> np.ndarray:
         """(count,) int64, the mirror image of each, itself if it has none."""
-        return np.where(self.twin < 0, np.arange(len(self.twin)), self.twin)
+        return np.where(self.twin < 0, arange(len(self.twin)), self.twin)
 
     @property
     def own(self) -> np.ndarray:
         """(count,) bool, which are their own images: their bones lie in the plane, if there is one."""
-        return self.twin == np.arange(len(self.twin))
+        return self.twin == arange(len(self.twin))
 
     @property
     def first(self) -> np.ndarray:
         """(count,) int64, the first of each and its image."""
-        return np.minimum(self.image, np.arange(len(self.twin)))
+        return np.minimum(self.image, arange(len(self.twin)))
 
     def of_bones(self, bone_part: np.ndarray, part_bone: np.ndarray) -> PartImages:
         """Those of bones of which several parts may have one; see ``limb_bones``."""
@@ -91,7 +92,7 @@ class PartImages:
         if self.mirror is None:
             return points
         first = points[self.first]
-        image = self.first != np.arange(len(points))
+        image = self.first != arange(len(points))
         return np.where(self.own[:, None], self.onto_plane(points),
                         np.where(image[:, None], self.mirror.mirrored(first), points))
 

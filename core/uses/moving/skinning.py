@@ -13,6 +13,7 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
 from ...arrays.indexing import bounds_of_each, largest_of_each
+from ...arrays.int64 import arange, full
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
 from ...arrays.vectors import across, lengths
 from ...mesh.corners import CornerTable
@@ -157,7 +158,7 @@ _NOWHERE = _Shares(np.empty(0, np.int64), np.empty(0))
 def _joints(table: CornerTable, labels: np.ndarray, bones: Bones, reach: float) -> list[_Joint]:
     """The joints of all bones. reach : how far the weights change, in radii of a joint."""
     n = len(table.vertices)
-    length = np.maximum(table.edge_length(np.arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
+    length = np.maximum(table.edge_length(arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
     graph, beyond = symmetric_matrix(table.edges, length, n), following(bones.parent, bones.order)
     cuts = CutEdges.of(table, labels)
     at, own = distinct_pairs(table.corner_vertex, labels[table.corner_face])[0].T
@@ -220,10 +221,10 @@ def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones,
     array of all bones at all vertices would be gigabytes where there are thousands of bones.
     """
     children = [np.flatnonzero(bones.parent == bone).tolist() for bone in range(len(bones.parent))]
-    mass, place = _roots(table, labels, bones), np.full(len(table.vertices), -1)
+    mass, place = _roots(table, labels, bones), full(len(table.vertices), -1)
     for bone in bones.order:
         own = mass[bone]
-        place[own.vertex] = np.arange(len(own.vertex))
+        place[own.vertex] = arange(len(own.vertex))
         taken = [odds[child].at(place) for child in children[bone]]
         total = np.zeros(len(own.vertex))
         for some in taken:
@@ -232,7 +233,7 @@ def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones,
         for child, some in zip(children[bone], taken, strict=True):
             mass[child] = _Shares(own.vertex[some.vertex], left.share[some.vertex] * some.share)
         place[own.vertex] = -1
-    mover = np.repeat(np.arange(len(mass)), [len(some.vertex) for some in mass])
+    mover = np.repeat(arange(len(mass)), [len(some.vertex) for some in mass])
     return np.concatenate([some.vertex for some in mass]), mover, np.concatenate([some.share for some in mass])
 
 
@@ -270,7 +271,7 @@ def _limited(vertex: np.ndarray, bone: np.ndarray, mass: np.ndarray, n: int, fif
         mass = np.maximum(mass - fifth * largest[vertex], _LITTLE * mass)
     order, rank = _ranked(vertex, bone, mass)
     order, rank = order[rank < MOST_BONES], rank[rank < MOST_BONES]
-    mover, weight = np.full((n, MOST_BONES), -1), np.zeros((n, MOST_BONES))
+    mover, weight = full((n, MOST_BONES), -1), np.zeros((n, MOST_BONES))
     mover[vertex[order], rank], weight[vertex[order], rank] = bone[order], mass[order]
     weight /= np.maximum(weight.sum(axis=1, keepdims=True), np.finfo(float).tiny)
     # Such multiples add up exactly; what rounding leaves goes to the largest.
@@ -285,7 +286,7 @@ def _ranked(vertex: np.ndarray, bone: np.ndarray, mass: np.ndarray) -> tuple[np.
     """The order by vertices, of each the largest first, and the place of each among those of its vertex; (k,) int64."""
     order = np.lexsort((bone, -mass, vertex))
     sorted_vertex = vertex[order]
-    return order, np.arange(len(order)) - np.searchsorted(sorted_vertex, sorted_vertex)
+    return order, arange(len(order)) - np.searchsorted(sorted_vertex, sorted_vertex)
 
 
 def stiff_weights(table: CornerTable, labels: np.ndarray) -> Weights:
@@ -368,7 +369,7 @@ def turned_over(
 
 def _of_area(table: CornerTable) -> CornerTable:
     """The table without needles."""
-    length = table.edge_length(np.arange(len(table.edges)))
+    length = table.edge_length(arange(len(table.edges)))
     longest = largest_of_each(table.corner_face, length[table.corner_edge], table.n_faces)
     return table.within(lengths(table.face_vectors()) > _NEEDLE * longest**2)
 
@@ -383,13 +384,13 @@ def bends(along: np.ndarray, angle: float) -> list[np.ndarray]:
 
 def _roots(table: CornerTable, labels: np.ndarray, bones: Bones) -> list[_Shares]:
     """The vertices of each tree of bones, whole, at its root, and nothing at the other bones; of several the first."""
-    root = np.arange(len(bones.parent))
+    root = arange(len(bones.parent))
     for bone in bones.order:
         if bones.parent[bone] >= 0:
             root[bone] = root[bones.parent[bone]]
-    of_vertex = np.full(len(table.vertices), len(root))
+    of_vertex = full(len(table.vertices), len(root))
     np.minimum.at(of_vertex, table.corner_vertex, root[labels[table.corner_face]])
     order = np.argsort(of_vertex, kind="stable")
-    first = np.searchsorted(of_vertex[order], np.arange(len(root) + 1))
+    first = np.searchsorted(of_vertex[order], arange(len(root) + 1))
     trees = [order[start:end] for start, end in zip(first[:-1].tolist(), first[1:].tolist(), strict=True)]
     return [_Shares(tree, np.ones(len(tree))) for tree in trees]

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...arrays.int64 import arange, full
 from ...arrays.pairs import partners_of
 from ...result.parts import Parts
 
@@ -72,7 +73,7 @@ class Touching:
                 largest[parent] = max(largest[parent], below[part])
                 cut_off[parent] += below[part]
             low[parent], below[parent] = min(low[parent], low[part]), below[parent] + below[part]
-        root = np.arange(len(place))
+        root = arange(len(place))
         for part in order:
             root[part] = root[above[part]] if above[part] >= 0 else part
         return np.maximum(largest, np.where(above >= 0, below[root] - cut_off - share, 0.0))
@@ -80,7 +81,7 @@ class Touching:
     def _depth_first(self) -> tuple[list[int], np.ndarray, np.ndarray]:
         """Parts in the order of a depth-first search; what each is reached from, -1 for none; the place of each."""
         order: list[int] = []
-        above, place = np.full(self.parts.count, -1), np.full(self.parts.count, -1)
+        above, place = full(self.parts.count, -1), full(self.parts.count, -1)
         for root in range(self.parts.count):
             waiting = [(root, -1)]
             while waiting:
@@ -94,7 +95,7 @@ class Touching:
     @cached_property
     def steps(self) -> np.ndarray:
         """(k,) int64, over how many cuts each part hangs on the body; a large number for loose ones."""
-        steps, at, reached = np.full(self.parts.count, LOOSE), [self.body], 0
+        steps, at, reached = full(self.parts.count, LOOSE), [self.body], 0
         steps[self.body] = 0
         while at:
             reached += 1

@@ -10,6 +10,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ....core.arrays.indexing import renumbered, sums_by
+from ....core.arrays.int64 import full
 from ....core.arrays.vectors import cross, unit
 
 
@@ -127,5 +128,5 @@ class BodySurface:
             Triangles of the surface.
         """
         tree = search_tree(places, triangles)
-        own = np.concatenate([self.own, np.full(len(places) - len(self.own), -2)])[triangles]
+        own = np.concatenate([self.own, full(len(places) - len(self.own), -2)])[triangles]
         return crossing(tree, self.tree, own, self.triangles), crossing(tree, tree, triangles, triangles)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ....core.arrays.components import components
 from ....core.arrays.indexing import renumbered, sums_by
+from ....core.arrays.int64 import arange, cumsum
 from ....core.arrays.ties import rounded
 from ....core.arrays.vectors import distances_between, lengths
 from ....core.uses.caps.networks import nested_sides, own_places
@@ -261,7 +262,7 @@ def _choices(network: _Network, mean: np.ndarray, step: float) -> Iterator[list[
     body = discs.around(places, np.append(curve, mean[None], axis=0), 0.1)
     if body is None or not step > 0 or (body.own < 0).any():
         return
-    share = (np.arange(1, _TRIED) / _TRIED)[:, None, None]
+    share = (arange(1, _TRIED) / _TRIED)[:, None, None]
     side = discs.side(((1 - share) * places + share * mean).reshape(-1, 3), body)
     for middle in _middles(places, mean, body, side):
         tried = (1 - share) * places + share * middle
@@ -277,9 +278,9 @@ def _crossings(sheets: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
         return np.empty((0, 2), np.int64)
     count = [len(every) for every, _ in sheets]
     places, number = np.unique(np.concatenate([every for every, _ in sheets]), axis=0, return_inverse=True)
-    own = np.concatenate([one + before for (_, one), before in zip(sheets, np.cumsum(count) - count, strict=True)])
+    own = np.concatenate([one + before for (_, one), before in zip(sheets, cumsum(count) - count, strict=True)])
     triangles = number.ravel()[own]
-    sheet = np.repeat(np.arange(len(sheets)), [len(one) for _, one in sheets])
+    sheet = np.repeat(arange(len(sheets)), [len(one) for _, one in sheets])
     tree = search_tree(places, triangles)
     pairs = sheet[crossing(tree, tree, triangles, triangles)]
     return pairs[pairs[:, 0] != pairs[:, 1]]
@@ -319,7 +320,7 @@ def _sees(ends: np.ndarray, starts: np.ndarray, body: BodySurface) -> np.ndarray
 def _bent(start: np.ndarray, middle: np.ndarray, step: float, body: BodySurface, side: float) -> np.ndarray:
     """A way from a place on the surface to a middle, pushed off the surface."""
     n = int(np.clip(np.linalg.norm(middle - start) / step, 2, _MOST))
-    share = (np.arange(1, n) / n)[:, None]
+    share = (arange(1, n) / n)[:, None]
     way = (1 - share) * start + share * middle
     held = np.zeros(len(way), bool)
     for _ in range(_ROUNDS):
@@ -332,5 +333,5 @@ def _bent(start: np.ndarray, middle: np.ndarray, step: float, body: BodySurface,
         held |= out
         known = np.concatenate([[0], np.flatnonzero(held) + 1, [n]])
         fixed = np.concatenate([start[None], way, middle[None]])[known]
-        way = np.stack([np.interp(np.arange(1, n), known, fixed[:, axis]) for axis in range(3)], axis=1)
+        way = np.stack([np.interp(arange(1, n), known, fixed[:, axis]) for axis in range(3)], axis=1)
     return np.concatenate([way, middle[None]])

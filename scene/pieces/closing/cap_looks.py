@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ....core.arrays.indexing import run_starts
+from ....core.arrays.int64 import arange
 from ....core.mesh.corners import next_of_owner
 from ....core.uses.caps.maps import cap_map
 from ...reading import mesh_arrays
@@ -27,7 +28,7 @@ def map_caps(mesh: bpy.types.Mesh) -> None:
     points = mesh_arrays.basis_points(mesh).astype(np.float64)
     count = mesh_arrays.face_sizes(mesh)
     vertex, on_cap = mesh_arrays.corner_vertices(mesh), np.repeat(cap, count)
-    face = np.repeat(np.arange(len(count)), count)
+    face = np.repeat(arange(len(count)), count)
     area = mesh_arrays.read(mesh.polygons, "area", np.float32)[~cap].sum(dtype=np.float64)
     for layer in mesh.uv_layers:
         places = mesh_arrays.read(layer.uv, "vector", np.float32, 2)

@@ -12,6 +12,7 @@ import numpy as np
 from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils.geometry import tessellate_polygon
 
+from ....core.arrays.int64 import arange
 from ....core.uses.caps.surfaces import common_order
 from ...reading import mesh_arrays, mesh_groups
 from ...reading.matrix_layers import as_bmesh
@@ -136,7 +137,7 @@ def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarr
     spokes = []
     for index, way in enumerate(ways):
         around = starts[index:] + starts[:index]
-        for place, share in zip(way, np.arange(1, len(way) + 1) / len(way), strict=True):
+        for place, share in zip(way, arange(1, len(way) + 1) / len(way), strict=True):
             if place.tobytes() not in made:
                 weights = np.full(n, share / n)
                 weights[0] += 1 - share

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ....core.arrays.int64 import arange
 from ....core.uses.caps.surfaces import spread
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def _led_in(disc: Disc, curve: np.ndarray, body: BodySurface, side: float) -> tu
     along = ((offset * way).sum(axis=2) / np.maximum((way**2).sum(axis=1), 1e-300)).clip(0.0, 1.0)
     away = np.linalg.norm(offset - along[:, :, None] * way, axis=2)
     edge = away.argmin(axis=1)
-    row = np.arange(len(edge))
+    row = arange(len(edge))
     share, away = along[row, edge][:, None], away[row, edge]
     normal = np.where((body.own >= 0)[:, None], body.vertex_normals[body.own], 0.0)
     inwards = -side * ((1 - share) * normal[edge] + share * normal[ahead[edge]])

@@ -12,6 +12,7 @@ from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array
 
 from ....core.arrays.indexing import ranges
+from ....core.arrays.int64 import arange, cumsum, full
 from ....core.arrays.pairs import edge_keys
 from ....core.arrays.vectors import cross, cross_in_plane
 from ....core.mesh.triangles import EdgeTable, vertex_components
@@ -267,7 +268,7 @@ class Discs:
     @cached_property
     def _bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """The bounding box of each row of triangles, which are near each other in most meshes; (r, 3) float64 each."""
-        first = np.arange(0, len(self._triangles), _ROW)
+        first = arange(0, len(self._triangles), _ROW)
         least, most = np.empty((2, len(first), 3))
         corners = self._triangles.ravel().astype(np.intp)
         for axis, values in enumerate(self._points.T):
@@ -307,8 +308,8 @@ class _Rims:
     @classmethod
     def of(cls, flat: np.ndarray, lengths: Sequence[int]) -> _Rims:
         """Curves of so many points each."""
-        ends = np.cumsum(lengths)
-        following = np.arange(1, len(flat) + 1)
+        ends = cumsum(lengths)
+        following = arange(1, len(flat) + 1)
         following[ends - 1] = ends - lengths
         return cls(flat, following, lengths[0])
 
@@ -343,7 +344,7 @@ def _triangulated(rims: _Rims, inner: np.ndarray) -> tuple[np.ndarray, np.ndarra
     """Triangles that fill the curves, and which inner points are inside; None if a curve meets itself or another."""
     flat, k, first = rims.flat, len(rims.flat), rims.first
     coords = np.concatenate([flat, inner])
-    holes = np.stack([np.arange(first, k), rims.following[first:]], axis=1)
+    holes = np.stack([arange(first, k), rims.following[first:]], axis=1)
     verts, _, faces, origin, _, _ = delaunay_2d_cdt(coords.tolist(), holes.tolist(), [list(range(first))], 1, 1e-9)
     if len(verts) != len(coords) or any(len(found) != 1 for found in origin):
         return None
@@ -353,12 +354,12 @@ def _triangulated(rims: _Rims, inner: np.ndarray) -> tuple[np.ndarray, np.ndarra
         triangles = triangles[~is_inside(coords[triangles].mean(axis=1), flat[holes])]
     used = np.zeros(len(coords), bool)
     used[triangles] = True
-    n_holes = int((rims.following[first:] <= np.arange(first, k)).sum())
+    n_holes = int((rims.following[first:] <= arange(first, k)).sum())
     if not used[:k].all() or len(triangles) != 2 * used[k:].sum() + k - 2 + 2 * n_holes:
         return None
     a, b, c = coords[triangles].transpose(1, 0, 2)
     turn = cross_in_plane(b - a, c - a)
-    place = np.cumsum(used) - 1
+    place = cumsum(used) - 1
     return place[triangles if turn.sum() > 0 else triangles[:, ::-1]], used[k:]
 
 
@@ -372,11 +373,11 @@ def _sleeved(found: Sleeve, curve: np.ndarray, body: BodySurface, side: float) -
     """Surfaces under the faces of a sleeve, closed by one across its end; if it has none, several depths are tried."""
     k = len(curve)
     vertex, on, ways = depths(found, curve, body, side)
-    number = np.full(len(body.points) + len(found.split), -1)
-    number[body.own] = np.arange(k)
-    number[vertex] = k + np.arange(len(vertex))
+    number = full(len(body.points) + len(found.split), -1)
+    number[body.own] = arange(k)
+    number[vertex] = k + arange(len(vertex))
     around = number[found.triangles]
-    following = np.roll(np.arange(k), -1)
+    following = np.roll(arange(k), -1)
     edges = around[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     along = ((edges[:, 1] == following[edges[:, 0] % k]) & (edges[:, 0] < k)).any()
     around, end = (around, number[found.end[::-1]]) if along else (around[:, ::-1], number[found.end])
@@ -388,14 +389,14 @@ def _sleeved(found: Sleeve, curve: np.ndarray, body: BodySurface, side: float) -
     across = next(filter(None, (_disc(places[end - k], rims) for rims in _seen([places[end - k]]))), None)
     if across is not None:
         whole = _joined(Disc(around, places, weights, following), across, end)
-        stays = np.arange(len(whole.places)) < len(places)
+        stays = arange(len(whole.places)) < len(places)
         yield pulled(pushed(whole, curve, body, side, stays), curve, body, side, stays)
 
 
 def _joined(disc: Disc, across: Disc, rim: np.ndarray) -> Disc:
     """A surface and another one across some of its points, (j,) int64."""
     n = disc.weights.shape[0]
-    name = np.concatenate([rim, n + np.arange(len(across.places))])
+    name = np.concatenate([rim, n + arange(len(across.places))])
     parts = disc.weights.tocoo(), across.weights.tocoo()
     rows = np.concatenate([parts[0].coords[0], name[parts[1].coords[0]]])
     columns = np.concatenate([parts[0].coords[1], name[parts[1].coords[1]]])

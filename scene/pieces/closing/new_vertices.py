@@ -11,6 +11,8 @@ import numpy as np
 from bmesh.types import BMesh, BMVert
 from mathutils import Vector
 
+from ....core.arrays.int64 import cumsum
+
 if TYPE_CHECKING:
     from .disc import Disc
 
@@ -69,7 +71,7 @@ def _spread_each(disc: Disc, values: list[np.ndarray]) -> list[np.ndarray]:
     """What the points inside have of each of some values, see Disc.spread."""
     if not values:
         return []
-    ends = np.cumsum([some.shape[1] for some in values])[:-1]
+    ends = cumsum([some.shape[1] for some in values])[:-1]
     return np.split(disc.spread(np.concatenate(values, axis=1)), ends, axis=1)
 
 
