@@ -97,7 +97,8 @@ def restore_former(former: Path) -> None:
 
 def sync(path: Path) -> None:
     """Have a file or a folder written to the disk; raises OSError if there is no room."""
-    handle = os.open(path, os.O_RDONLY if os.name == "posix" else os.O_RDWR)
+    # Windows takes a file that it opens as text for one that ends before a last Ctrl+Z, and cuts off this byte.
+    handle = os.open(path, os.O_RDONLY if os.name == "posix" else os.O_RDWR | getattr(os, "O_BINARY", 0))
     try:
         os.fsync(handle)
     finally:

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from core.atomic_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
+from core.atomic_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former, sync
 
 
 def content(folder):
     """All that is in a folder: files with their text, folders with None."""
-    return {str(path.relative_to(folder)): path.read_text() if path.is_file() else None
+    return {path.relative_to(folder).as_posix(): path.read_text() if path.is_file() else None
             for path in sorted(folder.rglob("*"))}
 
 
@@ -167,6 +167,15 @@ def test_what_a_killed_process_moved_away_is_brought_back_unless_something_took_
     fill(former / "cow", record="older")
     restore_former(former)
     assert content(tmp_path) == {"cow": None, "cow/record": "old"}
+
+
+@pytest.mark.parametrize("ending", [b"", b"\n", b"\r\n", b"\x1a", b"\0"])
+def test_what_is_written_through_to_the_disk_stays(tmp_path, ending):
+    """Windows took a last Ctrl+Z for the end of a text: one file of 256 lost a byte."""
+    path = tmp_path / "model.glb"
+    path.write_bytes(b"glTF" + ending)
+    sync(path)
+    assert path.read_bytes() == b"glTF" + ending
 
 
 def test_hidden_places_cannot_be_guessed():
