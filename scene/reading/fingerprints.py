@@ -28,7 +28,7 @@ def fingerprint(mesh: bpy.types.Mesh) -> str:
     """Changes when the mesh is edited: its basis positions or its faces. Not in Edit Mode."""
     # The edges of the corners tell where a face ends, and can be read much faster than that.
     arrays = (mesh_arrays.basis_points(mesh), mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh),
-              np.array([len(mesh.polygons)]))
+              np.array([len(mesh.polygons)], np.int64))
     # While a slider is dragged, all is as it was a moment ago; to compare is faster than to digest.
     for known, made in _digested:
         if all(np.array_equal(a.view(np.int32), b.view(np.int32)) for a, b in zip(arrays, known, strict=True)):
