@@ -8,25 +8,28 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import first_at_place
 from ..arrays.int64 import arange, full
-from ..arrays.pairs import repeated_in
+from ..arrays.pairs import distinct_pairs, repeated_in
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
 NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
 
 
 def joined_borders(
-    vertices: np.ndarray, border: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray
+    vertices: np.ndarray, edges: np.ndarray, n_edge_faces: np.ndarray, corner_vertex: np.ndarray,
+    corner_face: np.ndarray
 ) -> np.ndarray:
     """Find the vertex that each vertex is joined to.
 
-    A border vertex is joined to the first border vertex at its place, or within GAP of it, any other vertex to itself:
-    two closed surfaces that touch stay apart.
+    A border vertex is joined to the first border vertex at its place, any other vertex to itself: two closed surfaces
+    that touch stay apart. What is still at a border then is joined to what else is, within GAP of it: so closed
+    surfaces that nearly touch stay apart, too, where a file splits their vertices.
 
     Parameters
     ----------
     vertices : (n, 3) float64
-    border : (k,) int64
-        Vertices of edges of one face, rising.
+    edges : (e, 2) int64
+    n_edge_faces : (e,) int64
+        Number of faces at each edge.
     corner_vertex, corner_face : (c,) int64
         Vertex and face of each corner of all faces, the corners of a face in a row.
 
@@ -34,8 +37,13 @@ def joined_borders(
     -------
     joined : (n,) int64
     """
-    joined = first_at_place(vertices, border)
-    return _joined_nearby(vertices, joined, border[joined[border] == border], corner_vertex, corner_face)
+    at_border = np.zeros(len(vertices), bool)
+    at_border[edges[n_edge_faces == 1]] = True
+    joined = first_at_place(vertices, np.flatnonzero(at_border))
+    beside = at_border[edges].all(axis=1)
+    pairs, pair = distinct_pairs(*np.sort(joined[edges[beside]], axis=1).T)
+    place = np.unique(pairs[np.bincount(pair, n_edge_faces[beside]) == 1])
+    return _joined_nearby(vertices, joined, place, corner_vertex, corner_face)
 
 
 def _joined_nearby(
@@ -43,8 +51,8 @@ def _joined_nearby(
 ) -> np.ndarray:
     """As ``joined``, (n,) int64, but border vertices within GAP of each other are joined, too.
 
-    Not where a face would have a corner twice: what is as small as that stays as it is. place : (k,), a border vertex
-    at each place.
+    Not where a face would have a corner twice: what is as small as that stays as it is. place : (k,), those at
+    which there is a border.
     """
     from scipy.spatial import cKDTree  # here, since Blender's panels come up without SciPy
 

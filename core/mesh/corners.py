@@ -76,10 +76,10 @@ class CornerTable:
         first : (n,) int64
             The vertex that each vertex is joined to, itself for most.
         """
-        single = self.n_edge_faces == 1
-        if not single.any():
+        n_edge_faces = self.n_edge_faces
+        if not (n_edge_faces == 1).any():
             return self, arange(len(self.vertices))
-        first = joined_borders(self.vertices, np.unique(self.edges[single]), self.corner_vertex, self.corner_face)
+        first = joined_borders(self.vertices, self.edges, n_edge_faces, self.corner_vertex, self.corner_face)
         return self.with_joined(first), first
 
     def with_joined(self, first: np.ndarray) -> CornerTable:

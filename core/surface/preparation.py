@@ -313,8 +313,8 @@ def _either(which: np.ndarray, one: tuple[np.ndarray, ...], other: tuple[np.ndar
 
 def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[Sentence, ...]]:
     """Vertex that each vertex is joined to, (n,) int64, see ``joined_borders``, and a note of how many were joined."""
-    border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
-    joined = joined_borders(mesh.vertices, border, mesh.faces.ravel(), np.repeat(arange(mesh.n_faces), 3))
+    joined = joined_borders(mesh.vertices, mesh.edges.vertices, mesh.edges.n_faces, mesh.faces.ravel(),
+                            np.repeat(arange(mesh.n_faces), 3))
     n_joined = int((joined != arange(len(joined))).sum())
     if not n_joined:
         return joined, ()

@@ -35,3 +35,12 @@ def test_closed_surfaces_that_touch_stay_apart():
     joined, first = table.joined()
     assert joined is table
     np.testing.assert_array_equal(first, np.arange(16))
+
+
+def test_closed_surfaces_that_nearly_touch_stay_apart_with_every_corner_split_too():
+    """As in .stl: their corners lay within GAP of each other, and what a file had split became one surface."""
+    near = shapes.moved(shapes.box(), (1 + 0.5 * GAP, 0, 0))
+    vertices, faces = shapes.together(shapes.box(), near)
+    table, first = table_of(vertices[faces.ravel()], np.arange(faces.size).reshape(faces.shape)).joined()
+    assert len(np.unique(first)) == 16
+    assert (table.n_edge_faces == 2).all()
