@@ -2,6 +2,7 @@
 """For programs that run in Blender or with Blender as a module: their arguments, and the extension switched on."""
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -27,13 +28,16 @@ def leave(status: int):
 
 
 def enable(folder) -> str:
-    """Switch on the installed extension, or else the checkout by a link in an empty folder; its package's name."""
+    """Switch on the installed extension, or else the checkout, linked into an empty folder; its package's name."""
     for name in sys.modules:
         if name.startswith("bl_ext.") and name.endswith(".reeb_parts"):
             return name
     import addon_utils
 
-    (folder / "reeb_parts").symlink_to(ROOT)
+    if os.name == "nt":  # links are for administrators there
+        shutil.copytree(ROOT, folder / "reeb_parts", ignore=shutil.ignore_patterns(".*", "tests"))
+    else:
+        (folder / "reeb_parts").symlink_to(ROOT)
     bpy.context.preferences.extensions.repos.new(
         name="development", module="development", custom_directory=str(folder)
     )

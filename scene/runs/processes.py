@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,15 @@ def interpreter() -> str | None:
     if not path or not os.path.basename(path).lower().startswith("python") or not os.access(path, os.X_OK):
         return None
     return path
+
+
+def _remove(folder: Path) -> None:
+    """Remove a folder; on Windows a process that was killed, or a virus scanner, may hold files a moment longer."""
+    for pause in (0.02, 0.1, 0.5, 0.0):
+        shutil.rmtree(folder, ignore_errors=True)
+        if not folder.exists():
+            return
+        time.sleep(pause)
 
 
 class Worker:
@@ -145,7 +155,7 @@ class Worker:
         if self._process.stdin:
             self._process.stdin.close()
         self._messages.close()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        _remove(self.folder)
 
 
 def _libraries() -> list[str]:

@@ -6,6 +6,7 @@ import stat
 import unicodedata
 
 import pytest
+from systems import unix
 
 from core.file_names import file_name, kind_of, readable, spelled
 
@@ -19,16 +20,19 @@ def test_names_are_such_as_every_file_system_takes(text, name):
     assert file_name(text, "part") == name
 
 
+@unix
 def test_names_that_are_no_utf8_are_readable():
     assert readable("plain ä") == "plain ä"
     assert readable(os.fsdecode(b"stra\xdfe.obj")) == "stra\\xdfe.obj"
 
 
+@unix
 def test_names_that_a_locale_can_spell_stay():
     for name in ("plain ä", os.fsdecode(b"stra\xdfe.obj")):
         assert spelled(name) == name
 
 
+@unix
 def test_what_is_behind_a_name_is_known_or_said_not_to_be(tmp_path):
     (tmp_path / "file").touch()
     assert kind_of(tmp_path) == stat.S_IFDIR

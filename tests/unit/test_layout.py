@@ -141,7 +141,7 @@ def test_whole_numbers_are_of_64_bits_on_every_system():
 
 
 def test_only_the_script_that_a_blender_runs_for_the_package_imports_it():
-    paths = [str(path) for path, tree in FILES.items() if path.parts[0] == "package"
+    paths = [path.as_posix() for path, tree in FILES.items() if path.parts[0] == "package"
              and "bpy" in {module[0] for module in imported(path, tree)}]
     assert paths == ["package/blender_export.py"]
 

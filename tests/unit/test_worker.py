@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import scipy
 import shapes
+from systems import unix
 
 from core import Parameters, decompose, handover
 
@@ -69,6 +70,7 @@ def test_it_ends_and_clears_up_when_the_other_end_is_closed(when, tmp_path):
     process.communicate()
 
 
+@unix
 def test_it_is_for_the_other_process_to_heed_ctrl_c(tmp_path):
     process = start(tmp_path, shapes.tube_tree(step=0.13))
     process.stdout.readline()

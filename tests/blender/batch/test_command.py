@@ -16,6 +16,7 @@ import process
 import pytest
 import shapes
 from scipy.spatial import cKDTree
+from systems import unix
 from threemf_reader import read_3mf
 
 
@@ -285,10 +286,11 @@ def test_a_picture_has_a_size_in_its_range(run, model, tmp_path, size):
             f"not {size}") in ended.err
 
 
-@pytest.mark.parametrize(("moment", "number"), [
-    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT), ("cuts", signal.SIGHUP),
-    *[("2 objects", signal.SIGINT)] * (len(os.sched_getaffinity(0)) > 1)])
-def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, moment, number):
+@unix
+@pytest.mark.parametrize(("moment", "name"), [
+    ("mesh 0%", "SIGINT"), ("cuts", "SIGTERM"), ("files", "SIGINT"), ("cuts", "SIGHUP"),
+    *[("2 objects", "SIGINT")] * (hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1)])
+def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, moment, name):
     said = tmp_path_factory.mktemp("said")  # files, not pipes: nobody reads while the process writes
     models = [model]
     if moment == "2 objects":
@@ -305,16 +307,17 @@ def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, m
                    else lambda: moment in (said / "err").read_text())
         while running.poll() is None and not reached():
             time.sleep(0.01)
-        os.kill(running.pid, number)
+        os.kill(running.pid, signal.Signals[name])
         running.wait(timeout=120)
     out, err = ((said / name).read_text() for name in ("out", "err"))
-    assert running.returncode == 128 + number, err
+    assert running.returncode == 128 + signal.Signals[name], err
     assert "{" not in out  # a full Blender says its version there
     assert "Interrupted; nothing was written." in err
     assert process.content(tmp_path) == before
     assert list((tmp_path / "parts").iterdir()) == []
 
 
+@unix
 def test_nohup_has_it_go_on(model, tmp_path, tmp_path_factory):
     said = tmp_path_factory.mktemp("said") / "err"
     nohup = "import signal; signal.signal(signal.SIGHUP, signal.SIG_IGN)"
@@ -328,6 +331,7 @@ def test_nohup_has_it_go_on(model, tmp_path, tmp_path_factory):
     assert json.loads((tmp_path / "out.json").read_text())["objects"]
 
 
+@unix
 def test_standard_output_and_pipes_are_no_files(run, model, tmp_path):
     assert run(model, "--json", "-").status == 2
     ended = run("/dev/null", "--json", tmp_path / "x.json")
@@ -335,6 +339,7 @@ def test_standard_output_and_pipes_are_no_files(run, model, tmp_path):
     assert "/dev/null is no file but a pipe or a device: write the model to a file first." in ended.err
 
 
+@unix
 def test_names_that_are_no_utf8_are_readable_in_the_answer(run, model):
     odd = Path(os.fsdecode(os.fsencode(model.parent) + b"/Stra\xdfe.json"))
     ended = run(model, model.with_name(odd.name).with_suffix(".obj"), "--json", odd)

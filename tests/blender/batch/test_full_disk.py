@@ -7,6 +7,9 @@ import bpy
 import process
 import pytest
 from diagonal import some
+from systems import unix
+
+pytestmark = unix
 
 
 @pytest.fixture

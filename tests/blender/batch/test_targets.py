@@ -7,6 +7,9 @@ import stat
 import bpy
 import process
 import pytest
+from systems import unix
+
+pytestmark = unix
 
 
 def refused(run, folder, words, *arguments):
