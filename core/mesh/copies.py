@@ -36,12 +36,15 @@ class Copies:
         The vertices that belong to other polygons than copies, or to none, rising.
     home : (n,) int64
         For each vertex, the place in ``vertex`` of one where it is; of most their own.
+    turned : (p,) bool
+        Whether each polygon is the other side of the one of which it is a copy.
     """
 
     polygon: np.ndarray
     original: np.ndarray
     vertex: np.ndarray
     home: np.ndarray
+    turned: np.ndarray
 
     @property
     def n_copies(self) -> int:
@@ -49,9 +52,9 @@ class Copies:
         return len(self.original) - len(self.polygon)
 
     @property
-    def is_copied(self) -> np.ndarray:
-        """(k,) bool, whether there are copies of each polygon that is none."""
-        return np.bincount(self.original) > 1
+    def has_other_side(self) -> np.ndarray:
+        """(k,) bool, whether there is a copy of each polygon that is none which is its other side."""
+        return np.bincount(self.original, self.turned) > 0
 
     def without(self, given: PolygonMesh) -> PolygonMesh:
         """The mesh in which they were found, without copies: k polygons and m vertices."""
@@ -92,7 +95,7 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     """
     mesh = given.triangles
     place = hashed_rows(mesh.vertices)
-    number = _outlines(given, place)
+    number, backwards = _outlines(given, place)
     in_order = np.sort(number[number > 0])
     if not (in_order[1:] == in_order[:-1]).any():
         return None
@@ -114,7 +117,8 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     kept[mesh.faces[is_kept[given.polygon]]] = True
     vertex = np.flatnonzero(kept | ~mesh.used)
     home[vertex] = vertex
-    return Copies(np.flatnonzero(is_kept), (cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home))
+    return Copies(np.flatnonzero(is_kept), (cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home),
+                  backwards != backwards[original])
 
 
 def _first_kept(place: np.ndarray, kept: np.ndarray) -> np.ndarray:
@@ -143,11 +147,12 @@ def _mostly_copied(given: PolygonMesh, place: np.ndarray, is_copied: np.ndarray)
     return of_polygon
 
 
-def _outlines(given: PolygonMesh, place: np.ndarray) -> np.ndarray:
+def _outlines(given: PolygonMesh, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """A number for the outline of each polygon, (p,) uint64, that is equal for equal ones; 0 for some without area.
 
-    place : (n,) uint64, a number for where each vertex is. Each side of a triangle counts with a sign for its
-    direction, so that sides within a polygon cancel out, however it is cut into triangles.
+    And which of the two ways round the outline it runs, (p,) bool. place : (n,) uint64, where each vertex is. Each side
+    of a triangle counts with a sign for its direction, so that sides within a polygon cancel out, however it is cut
+    into triangles.
     """
     other = (place ^ place >> np.uint64(32)) * GOLDEN
     corners = given.triangles.faces.T
@@ -157,4 +162,5 @@ def _outlines(given: PolygonMesh, place: np.ndarray) -> np.ndarray:
     if given.n_polygons < given.triangles.n_faces:
         of_triangle, total = total, np.zeros(given.n_polygons, np.uint64)
         np.add.at(total, given.polygon, of_triangle)
-    return np.minimum(total, np.uint64(0) - total)
+    other_way = np.uint64(0) - total
+    return np.minimum(total, other_way), total > other_way

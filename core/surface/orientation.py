@@ -64,7 +64,7 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
 def without_copies(given: PolygonMesh, copies: Copies) -> PolygonMesh:
     """The mesh in which copies of faces were found, without them; sides are chosen as ``of_either_side`` does."""
     given = copies.without(given)
-    return replace(given, triangles=of_either_side(given.triangles, copies.is_copied[given.polygon]))
+    return replace(given, triangles=of_either_side(given.triangles, copies.has_other_side[given.polygon]))
 
 
 def of_either_side(mesh: TriMesh, chosen: np.ndarray) -> TriMesh:

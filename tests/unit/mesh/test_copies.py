@@ -8,6 +8,7 @@ import shapes
 from core import Parameters, decompose
 from core.mesh.copies import Copies, find_copies
 from core.mesh.polygons import PolygonMesh
+from core.surface.orientation import without_copies
 
 RNG = np.random.default_rng(0)
 TREE = shapes.tube_tree()
@@ -55,7 +56,7 @@ def test_the_image_of_a_copy_is_a_copy_of_the_image():
 
 def test_where_the_image_has_no_copy_that_of_a_copy_is_the_image():
     """Polygons 0 and 1 are images of each other, 2 has none, and 3 and 4 are copies of 0."""
-    copies = Copies(np.arange(3), np.array([0, 1, 2, 0, 0]), np.arange(3), np.arange(3))
+    copies = Copies(np.arange(3), np.array([0, 1, 2, 0, 0]), np.arange(3), np.arange(3), np.zeros(5, bool))
     assert copies.images(np.array([1, 0, -1])).tolist() == [1, 0, -1, 1, 1]
     assert copies.n_copies == 2
 
@@ -97,6 +98,14 @@ def test_which_side_comes_first_does_not_count():
         found.append(np.unique(labels, return_inverse=True)[1])
     for one in found[1:]:
         assert len(np.unique(np.stack([found[0], one], axis=1), axis=0)) == found[0].max() + 1 == one.max() + 1
+
+
+def test_what_is_there_twice_from_one_side_keeps_that_side():
+    """As where a duplicate was joined to its original: of open clothes the side was chosen as if there were both."""
+    vertices, faces = shapes.half_of(shapes.mirrored_figure())
+    inwards = np.asarray(faces)[:, ::-1]
+    given = PolygonMesh.of(vertices, np.concatenate([inwards, np.roll(inwards, 1, axis=1)]))
+    assert (without_copies(given, find_copies(given)).triangles.faces == inwards).all()
 
 
 def test_copies_have_the_hints_of_what_they_lie_on():
