@@ -4,7 +4,8 @@
 Each node and each point of an arc moves as the candidate part around it does, which is fitted to the evaluated mesh.
 The nodes keep their locations, which are the graph's; a delta of theirs takes them to where they are seen. A mesh whose
 modifiers make other faces than its own has its graph where it was, but for Subdivision beside those that move it, and
-for the Mirror of a half model before these: what lies on the other side goes with the image there.
+for the Mirror of a half model before these, with Subdivision or without: what lies on the other side goes with the
+image there.
 """
 
 from __future__ import annotations
@@ -118,7 +119,7 @@ def _moved(
         mean = plane.heights(before @ stretch.T).mean()
         # What lies in the plane goes with the mesh itself.
         beyond = plane.heights(rest @ stretch.T) * mean < -_RESTS * mean**2
-        moved = np.where(beyond[:, None], moved_by(image, _face_means(obj, both[1])), moved)
+        moved = np.where(beyond[:, None], moved_by(image, both[1]), moved)
     size = np.ptp(before, axis=0).max()
     return rest if np.abs(moved - rest).max(initial=0.0) <= _RESTS * size else moved
 
@@ -126,11 +127,8 @@ def _moved(
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
     """The middle of each face as it is seen, (p, 3) float64; None if modifiers leave it, or make other faces."""
     points = seen_corners(context, obj)
-    return None if points is None else _face_means(obj, points)
-
-
-def _face_means(obj: bpy.types.Object, points: np.ndarray) -> np.ndarray:
-    """The middle of each face of an object's mesh, (p, 3) float64, of its corners' places (c, 3)."""
+    if points is None:
+        return None
     _, face = mesh_arrays.face_corners(obj.data)
     return sums_by(face, points.astype(np.float64), len(obj.data.polygons)) / mesh_arrays.face_sizes(obj.data)[:, None]
 

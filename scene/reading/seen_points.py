@@ -42,7 +42,7 @@ def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray
     """Where each vertex of an object's mesh is seen, (n, 3) float32 in the object's coordinates; not in Edit Mode.
 
     Where modifiers make other faces than the mesh has and do not just divide them, as Remesh does, that is where it
-    is without them.
+    is without them; but for a Mirror that comes first.
     """
     points, own = mesh_arrays.shown_points(obj), obj.data
     if not _shown(obj):
@@ -56,6 +56,8 @@ def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray
         points[before] = seen[after]  # where edges are split, there are more vertices
     elif {modifier.type for modifier in _shown(obj)} <= _MOVE | _DIVIDE and len(seen) > len(points):
         return seen[: len(points)]
+    elif (both := seen_halves(context, obj)) is not None:
+        points[mesh_arrays.corner_vertices(own)] = both[0]
     return points
 
 
@@ -79,20 +81,35 @@ def seen_corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarra
     return None
 
 
-def seen_halves(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
-    """Where the corners are seen of a model that a Mirror modifier mirrors first, and those of the image, behind them.
+def seen_halves(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray] | None:
+    """Where a model is seen that a Mirror modifier mirrors first: its own corners, and the faces of the image.
 
-    In Blender the faces of the image come after those of the mesh, in the same order.
+    In Blender the faces of the image come after those of the mesh, in the same order, and so do those that Subdivision
+    makes of them; it leaves the vertices that it finds in front of its own.
 
-    Returns (2, c, 3) float32 in the object's coordinates, where the corners of each face of the image may have another
-    order. None if nothing comes after the Mirror modifier, or if what does makes other faces; not in Edit Mode.
+    Returns
+    -------
+    corners : (c, 3) float32
+        In the object's coordinates, as the next one.
+    image : (p, 3) float64
+        The middle of each face.
+
+    None if nothing comes after the Mirror modifier, or if what does makes other faces; not in Edit Mode.
     """
     if half_models.mirror_of(obj) is None or len(_shown(obj)) < 2:
         return None
     mesh, own = obj.evaluated_get(context.evaluated_depsgraph_get()).data, obj.data
-    if (len(mesh.polygons), len(mesh.loops)) != (2 * len(own.polygons), 2 * len(own.loops)):
+    vertex, points = mesh_arrays.corner_vertices(own), mesh_arrays.basis_points(mesh)
+    after = {modifier.type for modifier in _shown(obj)[1:]}
+    count, half = len(own.polygons), len(own.loops)
+    if (len(mesh.polygons), len(mesh.loops)) == (2 * count, 2 * half):
+        vertex, sizes = mesh_arrays.corner_vertices(mesh)[:half], np.ones(count, np.int64)
+    elif after & _MOVE and after <= _MOVE | _DIVIDE and len(mesh.polygons) % (2 * half) == 0 < half:
+        sizes = len(mesh.polygons) // (2 * half) * mesh_arrays.face_sizes(own).astype(np.int64)
+    else:
         return None
-    return mesh_arrays.basis_points(mesh)[mesh_arrays.corner_vertices(mesh)].reshape(2, -1, 3)
+    middles = mesh_arrays.face_middles(mesh)[0][len(mesh.polygons) // 2:]
+    return points[vertex], sums_by(np.repeat(np.arange(count), sizes), middles, count) / sizes[:, None]
 
 
 def corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray:

@@ -134,14 +134,19 @@ def test_it_goes_with_the_bones(obj, follow, divided):
     assert np.linalg.norm(after - before, axis=1).max() > 0.5
 
 
-def test_that_of_a_half_model_goes_with_the_bones_of_both_sides(package, make):
-    """It stayed where it was, and so did the outline of chosen parts."""
+@pytest.mark.parametrize("divided", [False, True])
+def test_that_of_a_half_model_goes_with_the_bones_of_both_sides(package, make, divided):
+    """It stayed where it was; beside Subdivision, as most half models have it, for longer."""
     obj = make(shapes.half_of(shapes.mirrored_figure()), "Figure")
     obj.scale = (1.0, 1.5, 0.5)
     obj.modifiers.new("Mirror", "MIRROR")
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature(weights="PARTS")
+    if divided:
+        obj.modifiers.new("Subdivision", "SUBSURF")
     bpy.context.view_layer.update()
+    follow = sys.modules[f"{package}.scene.graph.graph_follow"].follow
+    follow(bpy.context, obj)
     before, _ = seen()
     (rig,) = [item for item in bpy.data.objects if item.type == "ARMATURE"]
     sides = [bone.name for bone in rig.pose.bones if bone.name.endswith((".L", ".R"))]
@@ -150,7 +155,7 @@ def test_that_of_a_half_model_goes_with_the_bones_of_both_sides(package, make):
     for name in turned:
         rig.pose.bones[name].location = (0.0, 0.0, 0.25)
     bpy.context.view_layer.update()
-    sys.modules[f"{package}.scene.graph.graph_follow"].follow(bpy.context, obj)
+    follow(bpy.context, obj)
     after, _ = seen()
     names = {part.number: part.name for part in obj.data.reeb_parts.parts}
     moved = np.linalg.norm(after - before, axis=1)
@@ -159,6 +164,29 @@ def test_that_of_a_half_model_goes_with_the_bones_of_both_sides(package, make):
     assert moved[limb & right] == pytest.approx(0.25, abs=0.05)
     assert moved[limb & left] == pytest.approx(0.0, abs=1e-4)
     assert (limb & left).sum() == (limb & right).sum() > 1
+
+
+@pytest.mark.parametrize("place", [None, 1, 2])
+def test_the_outline_of_parts_of_a_half_model_goes_with_the_bones(package, make, place):
+    """It stayed where it was. place : of Subdivision among the modifiers."""
+    obj = make(shapes.half_of(shapes.mirrored_figure()), "Figure")
+    obj.modifiers.new("Mirror", "MIRROR")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature(weights="PARTS")
+    (rig,) = [item for item in bpy.data.objects if item.type == "ARMATURE"]
+    for bone in rig.pose.bones:
+        bone.location = (0.0, 0.0, 0.25)
+    half = obj.copy()  # as the bones move it alone
+    half.modifiers.remove(half.modifiers["Mirror"])
+    bpy.context.scene.collection.objects.link(half)
+    if place is not None:
+        obj.modifiers.new("Subdivision", "SUBSURF").subdivision_type = "SIMPLE"  # vertices stay
+        obj.modifiers.move(2, place)
+    bpy.context.view_layer.update()
+    seen_points = sys.modules[f"{package}.scene.reading.seen_points"].seen_points
+    points = seen_points(bpy.context, half)
+    assert np.abs(points - [vertex.co[:] for vertex in obj.data.vertices]).max() > 0.2
+    assert seen_points(bpy.context, obj) == pytest.approx(points, abs=1e-6)
 
 
 def test_nodes_and_arcs_of_hidden_parts_are_folded(obj, follow):
