@@ -6,6 +6,7 @@
 - ``graph_lines``: its arcs as lines to draw and to point at
 - ``hover``: the part under the pointer, filled and named
 - ``lines``: lines and surfaces that are drawn
+- ``clipping``: what Alt+B leaves of a view
 - ``shading``: shows the parts' colors in a viewport
 - ``framing``: looks at something from near
 - ``follow_active``: has the list follow the active object

@@ -14,12 +14,14 @@ import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
 
 from ..core.arrays.int64 import arange
 from ..scene import store
 from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.ours.made_objects import ROLE
 from ..scene.result import part_names
+from .clipping import is_clipped
 from .graph_lines import GraphLines
 from .lines import Lines
 
@@ -173,6 +175,11 @@ def colored_arcs(mesh: bpy.types.Mesh, places: np.ndarray | None = None) -> tupl
 
 def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: list[bpy.types.Object]) -> None:
     region, view = context.region, context.region_data
+    places = np.array([node.matrix_world.translation for node in nodes])
+    clipped = is_clipped(view, places, Matrix.Identity(4))
+    nodes = [node for node, outside in zip(nodes, clipped, strict=True) if not outside]
+    if not nodes:
+        return
     matrix = np.array(view.view_matrix, np.float64)
     # Far ones first: also in front of the model, nearer ones are drawn over them.
     nodes = sorted(nodes, key=lambda node: view.view_matrix[2].xyz.dot(node.matrix_world.translation))

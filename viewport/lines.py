@@ -12,6 +12,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..scene.errors import SceneError
+from .clipping import clipped_lines, is_clipped
 
 NEARER = 0.002  # by what share of its distance a fill is drawn nearer than the surface, in perspective
 FLAT = 2e-5  # and without, as a share of the depth of the view
@@ -32,8 +33,12 @@ class Lines:
 
     def __init__(self, points: np.ndarray, colors: np.ndarray | None = None) -> None:
         self.shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR" if colors is None else "POLYLINE_FLAT_COLOR")
+        self.points, self.colors = points, colors
+        self.batch = self._batch(points, colors)
+
+    def _batch(self, points: np.ndarray, colors: np.ndarray | None) -> gpu.types.GPUBatch:
         content = {"pos": points} if colors is None else {"pos": points, "color": colors}
-        self.batch = batch_for_shader(self.shader, "LINES", content)
+        return batch_for_shader(self.shader, "LINES", content)
 
     @classmethod
     def of(cls, read: Callable[..., tuple[np.ndarray, ...]], *arguments: object) -> Lines | None:
@@ -49,7 +54,13 @@ class Lines:
 
         width : in pixels of a screen without scaling.
         """
-        scale = bpy.context.preferences.system.ui_scale
+        scale, batch = bpy.context.preferences.system.ui_scale, self.batch
+        if bpy.context.region_data.use_clip_planes:
+            left, kept = clipped_lines(bpy.context.region_data, self.points.reshape(-1, 2, 3), matrix)
+            if not kept.any():
+                return
+            colors = None if self.colors is None else self.colors[np.repeat(kept, 2)]
+            batch = self._batch(left[kept].reshape(-1, 3), colors)
         self.shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
         with gpu.matrix.push_pop():
             gpu.matrix.multiply_matrix(matrix)
@@ -57,7 +68,7 @@ class Lines:
                 self.shader.uniform_float("lineWidth", wide * scale)
                 if shade is not None:
                     self.shader.uniform_float("color", shade)
-                self.batch.draw(self.shader)
+                batch.draw(self.shader)
 
 
 def _strokes(width: float, color: tuple[float, ...] | None) -> list[tuple[float, tuple[float, ...] | None]]:
@@ -78,7 +89,11 @@ class Surface:
 
     def __init__(self, triangles: np.ndarray) -> None:
         self.shader = gpu.shader.from_builtin("UNIFORM_COLOR")
-        self.batch = batch_for_shader(self.shader, "TRIS", {"pos": triangles.reshape(-1, 3)})
+        self.triangles = triangles
+        self.batch = self._batch(triangles)
+
+    def _batch(self, triangles: np.ndarray) -> gpu.types.GPUBatch:
+        return batch_for_shader(self.shader, "TRIS", {"pos": triangles.reshape(-1, 3)})
 
     @classmethod
     def of(cls, read: Callable[..., np.ndarray], *arguments: object) -> Surface | None:
@@ -91,6 +106,12 @@ class Surface:
 
     def draw(self, matrix: Matrix, color: tuple[float, ...], is_perspective: bool) -> None:
         """Fill what is seen of it. matrix : from the mesh to the world. is_perspective : whether the view is."""
+        batch = self.batch
+        if bpy.context.region_data.use_clip_planes:
+            kept = ~is_clipped(bpy.context.region_data, self.triangles.mean(axis=1), matrix)
+            if not kept.any():
+                return
+            batch = self._batch(self.triangles[kept])
         self.shader.bind()
         self.shader.uniform_float("color", color)
         projection = gpu.matrix.get_projection_matrix()
@@ -106,19 +127,19 @@ class Surface:
         with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
             gpu.matrix.load_projection_matrix(projection)
             gpu.matrix.multiply_matrix(matrix)
-            self._draw_nearest()
+            self._draw_nearest(batch)
         gpu.state.depth_test_set("NONE")
         gpu.state.blend_set("NONE")
 
-    def _draw_nearest(self) -> None:
+    def _draw_nearest(self, batch: gpu.types.GPUBatch) -> None:
         """Draw what is nearest, once: the inner side of a thin wall is drawn nearer than the wall, too."""
         gpu.state.color_mask_set(False, False, False, False)
         gpu.state.depth_mask_set(True)
-        self.batch.draw(self.shader)
+        batch.draw(self.shader)
         gpu.state.color_mask_set(True, True, True, True)
         gpu.state.depth_mask_set(False)
         gpu.state.depth_test_set("EQUAL")
-        self.batch.draw(self.shader)
+        batch.draw(self.shader)
 
 
 def fill(corners: np.ndarray, matrix: Matrix, color: tuple[float, ...]) -> None:

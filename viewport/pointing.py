@@ -21,6 +21,7 @@ from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.outputs.kept_aside import find_attribute
 from ..scene.reading import mesh_arrays, seen_points
+from .clipping import clip_planes, is_clipped
 from .graph_lines import GraphLines, frontmost, nearest
 
 if TYPE_CHECKING:
@@ -163,7 +164,7 @@ class Model:
         if target is not None or not surface:
             return target
         target = self.along(context, obj, *ray_of(region, mouse))
-        if target is None or is_clipped(region, target.location[None], obj.matrix_world)[0]:
+        if target is None or is_clipped(region.data, target.location[None], obj.matrix_world)[0]:
             return None
         return target
 
@@ -176,6 +177,7 @@ class Model:
         if places is None or len(places) != len(self.shown_lines.position):
             places = self.shown_lines.position
         points, scale = in_view(places, obj.matrix_world, region), context.preferences.system.ui_scale
+        points[is_clipped(region.data, places, obj.matrix_world)] = np.nan
         segment, share, distance = frontmost(points, self.shown_lines.segments, np.array(mouse), ALIKE * scale)
         if segment < 0 or distance > REACH * scale:
             return None
@@ -293,26 +295,18 @@ def in_view(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region) -> 
 
 def ray_of(region: bpy.types.Region, mouse: Sequence[float] | np.ndarray) -> tuple[Vector, Vector]:
     """Where what is seen at a (2,) place of a region begins, in the world, and which way one looks there."""
-    start = view3d_utils.region_2d_to_origin_3d(region, region.data, mouse)
-    ahead = view3d_utils.region_2d_to_vector_3d(region, region.data, mouse)
+    view = region.data
+    start = view3d_utils.region_2d_to_origin_3d(region, view, mouse)
+    ahead = view3d_utils.region_2d_to_vector_3d(region, view, mouse)
+    if not view.is_perspective and view.view_perspective == "CAMERA":
+        # Blender's function begins in the middle of the depth that the camera sees, behind most models.
+        start -= view.perspective_matrix.inverted().col[2].xyz
     into = 0.0
-    for plane in clip_planes(region.data):
+    for plane in clip_planes(view):
         height, rise = plane[:3] @ np.array(start) + plane[3], plane[:3] @ np.array(ahead)
         if height < 0.0 < rise:
             into = max(into, -height / rise)
     return start + float(into) * ahead, ahead
-
-
-def is_clipped(region: bpy.types.Region, points: np.ndarray, matrix: Matrix) -> np.ndarray:
-    """Whether points, (k, 3), which a matrix takes to the world, are outside what Alt+B leaves of a view; (k,) bool."""
-    world = points @ np.array(matrix.to_3x3(), np.float64).T + np.array(matrix.translation)
-    planes = clip_planes(region.data)
-    return (world @ planes[:, :3].T + planes[:, 3] < 0.0).any(axis=1)
-
-
-def clip_planes(view: bpy.types.RegionView3D) -> np.ndarray:
-    """The sides of what Alt+B leaves of a view, (4, 4) float64, less than 0 outside; or (0, 4)."""
-    return np.array(view.clip_planes, np.float64).reshape(-1, 4)[:4 if view.use_clip_planes else 0]
 
 
 def viewport_region(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Region, tuple[float, float]] | None:

@@ -9,7 +9,8 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ...core.arrays.int64 import arange
-from ..pointing import Model, is_clipped, on_screen, ray_of
+from ..clipping import is_clipped
+from ..pointing import Model, on_screen, ray_of
 
 SAMPLES = 64  # faces of each part that are looked at, whether something hides them
 
@@ -27,7 +28,7 @@ def parts_in_box(context: bpy.types.Context, obj: bpy.types.Object, model: Model
     places = on_screen(model.face_center, obj.matrix_world, region)
     with np.errstate(invalid="ignore"):  # nan: behind the viewer
         inside = ((places >= low) & (places <= high)).all(axis=1)
-    inside &= ~is_clipped(region, model.face_center, obj.matrix_world)
+    inside &= ~is_clipped(region.data, model.face_center, obj.matrix_world)
     shading = context.space_data.shading
     if not (shading.type == "WIREFRAME" or (shading.type == "SOLID" and shading.show_xray)):
         inside &= _turned_here(obj, model, region.data)

@@ -3,6 +3,7 @@
 
 import importlib
 import sys
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -215,6 +216,23 @@ def test_a_ray_meets_the_part_that_is_seen_there(package, obj, result, change):
         target = model.along(bpy.context, obj, world @ (place - 2 * inwards), world.to_3x3() @ inwards)
         assert model.number(target) == numbers(obj.data)[face]
     assert model.along(bpy.context, obj, Vector((50, 50, 50)), Vector((1, 0, 0))) is None
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_rays_begin_where_a_camera_is(package, scene, kind):
+    """Of an orthographic one they began in the middle of what it sees, behind most models: nothing was pointed at."""
+    scene.camera = camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    camera.data.type, camera.location, camera.data.clip_end = kind, (2.0, 1.0, 5.0), 1000.0
+    bpy.context.view_layer.update()
+    window = camera.calc_matrix_camera(bpy.context.evaluated_depsgraph_get(), x=400, y=400)
+    view = SimpleNamespace(
+        view_matrix=camera.matrix_world.inverted(), perspective_matrix=window @ camera.matrix_world.inverted(),
+        is_perspective=kind == "PERSP", view_perspective="CAMERA", use_clip_planes=False, clip_planes=[[0.0] * 4] * 6)
+    region = SimpleNamespace(width=400, height=400, data=view)
+    start, ahead = sys.modules[f"{package}.viewport.pointing"].ray_of(region, (200, 200))
+    assert start[:] == pytest.approx(camera.location[:], abs=0.1 + 1e-3)  # it sees from its near end, 0.1 ahead
+    assert ahead[:] == pytest.approx((0.0, 0.0, -1.0), abs=1e-5)
 
 
 def bent(obj, *modifiers):
