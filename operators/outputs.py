@@ -8,10 +8,11 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import outputs, property_updates, targets
+from ..scene import modes, outputs, property_updates, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
+from ..viewport import shading
 
 
 class OutputOperator(SelectedPartsOperator):
@@ -64,3 +65,8 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
     bl_label = "Give Each Part a Material"
     output = (materials, n_("{n} {n:part has a material|parts have materials}"),
               n_("The materials are yours alone again"))
+
+    def run(self, context: bpy.types.Context) -> None:
+        super().run(context)
+        if not self.remove and modes.lacks_colors(context.object):
+            shading.show_colors(context)  # those of materials

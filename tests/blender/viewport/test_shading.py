@@ -75,3 +75,19 @@ def test_levels_of_multires_are_sculpted_in_colors_of_materials(package, space, 
     bpy.ops.reeb_parts.show_colors()
     assert space.shading.color_type == "VERTEX"
     bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_materials_are_shown_while_levels_of_multires_are_sculpted(space, obj):
+    """Decomposed in Object Mode, the model was black in Sculpt Mode, and black again with a material for each part."""
+    obj.modifiers.new("Multires", "MULTIRES")
+    bpy.ops.object.multires_subdivide(modifier="Multires")
+    space.shading.type, space.shading.color_type = "SOLID", "VERTEX"
+    bpy.ops.reeb_parts.decompose()
+    area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
+    with bpy.context.temp_override(area=area):
+        bpy.ops.reeb_parts.materials()
+        assert space.shading.color_type == "VERTEX"
+        bpy.ops.object.mode_set(mode="SCULPT")
+        bpy.ops.reeb_parts.materials()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert space.shading.color_type == "MATERIAL"
