@@ -76,8 +76,8 @@ def restore_colors(context: bpy.types.Context) -> None:
 
 
 @persistent
-def _undone(*_: object) -> None:
-    """Undo or redo has taken pieces away or brought them back: the view follows, which is no part of undo."""
+def _follow_pieces(*_: object) -> None:
+    """Pieces were taken away or brought back, as by undo: the view follows, which is no part of undo."""
     if not _of_pieces:
         return
     objects = [obj for obj in bpy.context.view_layer.objects if obj is not None]  # after removals some are none
@@ -91,14 +91,23 @@ def _undone(*_: object) -> None:
             space.shading.color_type = now
 
 
+@persistent
+def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Pieces may have been deleted, in whose place the original is seen again."""
+    if _of_pieces and depsgraph.id_type_updated("COLLECTION"):
+        _follow_pieces()
+
+
 def register() -> None:
     for those in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        those.append(_undone)
+        those.append(_follow_pieces)
+    bpy.app.handlers.depsgraph_update_post.append(_changed)
 
 
 def unregister() -> None:
     for those in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.remove(those, _undone)
+        handlers.remove(those, _follow_pieces)
+    handlers.remove(bpy.app.handlers.depsgraph_update_post, _changed)
     _of_pieces.clear()
 
 

@@ -91,3 +91,19 @@ def test_materials_are_shown_while_levels_of_multires_are_sculpted(space, obj):
         bpy.ops.reeb_parts.materials()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert space.shading.color_type == "MATERIAL"
+
+
+def test_once_all_pieces_are_deleted_the_colors_of_the_parts_are_seen_again(space, obj):
+    """The model was grey, as the viewport went on showing the colors of objects."""
+    area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
+    with bpy.context.temp_override(area=area):
+        bpy.ops.reeb_parts.decompose()
+        bpy.ops.reeb_parts.show_colors()
+        bpy.ops.reeb_parts.separate()
+    pieces = list(bpy.context.selected_objects)
+    assert len(pieces) > 2
+    for left, piece in enumerate(pieces, 1 - len(pieces)):
+        assert space.shading.color_type == "OBJECT"
+        bpy.data.objects.remove(piece)
+        bpy.context.view_layer.update()
+        assert space.shading.color_type == ("VERTEX" if left == 0 else "OBJECT")
