@@ -148,7 +148,7 @@ def _draw_decompose(layout: bpy.types.UILayout, room: Room, again: bool) -> None
     if jobs.current is not None:
         row = layout.row(align=True)
         row.scale_y = 1.5
-        text = jobs.current.text[:1].upper() + jobs.current.text[1:]
+        text = progress_text(jobs.current)
         beside = room.has(text, icons=1)
         row.progress(factor=jobs.current.share, text=text if beside else "")
         if isinstance(jobs.current, jobs.Job):  # in steps of Blender's own only keys reach it
@@ -161,6 +161,11 @@ def _draw_decompose(layout: bpy.types.UILayout, room: Room, again: bool) -> None
     room.operator(row, "reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
     if again:
         row.operator("reeb_parts.clear", text="", icon="TRASH")
+
+
+def progress_text(work: jobs.Job | jobs.Progress) -> str:
+    """What is being done, with a capital; a name at its beginning stays as it is."""
+    return work.text if work.of else work.text[:1].upper() + work.text[1:]
 
 
 def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:

@@ -294,7 +294,7 @@ class Progress:
     """
 
     def __init__(self, stage: str) -> None:
-        self.stage, self.share, self.cancelled = stage, 0.0, False
+        self.stage, self.of, self.share, self.cancelled = stage, "", 0.0, False
 
     @property
     def text(self) -> str:

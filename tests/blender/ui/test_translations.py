@@ -236,6 +236,11 @@ def test_progress(said, package):
     job = jobs.Job([], None)
     job.stage, job.of = "reeb graph", "BODY"
     assert job.text == said["progress"]
+    progress_text = importlib.import_module(f"{package}.ui.panel").progress_text
+    job.of = "kit"  # names stay as they are: it was Kit
+    assert progress_text(job) == said["progress"].replace("BODY", "kit")
+    job.of = ""
+    assert progress_text(job) == said["progress"].removeprefix("BODY: ").replace("reeb graph", "Reeb graph")
 
 
 def test_why_there_is_no_result(said, obj, package):
