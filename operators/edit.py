@@ -136,7 +136,9 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.assign"
     bl_label = "Assign Faces to Part"
 
-    new: bpy.props.BoolProperty(name="New Part", description="Make a part of its own of the faces")
+    new: bpy.props.BoolProperty(
+        name="New Part", options={"SKIP_SAVE"}, description="Make a part of its own of the faces",
+    )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         mesh = obj.data
@@ -165,7 +167,9 @@ class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.release"
     bl_label = "Release Parts"
 
-    everything: bpy.props.BoolProperty(name="All", description="Release every part that is not locked")
+    everything: bpy.props.BoolProperty(
+        name="All", options={"SKIP_SAVE"}, description="Release every part that is not locked",
+    )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         which = "ALL" if self.everything else "CHOSEN"

@@ -54,7 +54,9 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.isolate"
     bl_label = "Isolate Parts"
 
-    show_all: bpy.props.BoolProperty(name="Show All", description="Show every face again")
+    show_all: bpy.props.BoolProperty(
+        name="Show All", options={"SKIP_SAVE"}, description="Show every face again",
+    )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         numbers = stored.face_numbers

@@ -404,3 +404,12 @@ def test_it_works_or_says_why_not_and_can_be_undone(package, name, situation, ma
     assert changes(before, snapshot()) == []
     bpy.ops.ed.redo()
     assert changes(after, snapshot()) == []
+
+
+@pytest.mark.parametrize(("name", "choice"), [("isolate", "show_all"), ("release", "everything"), ("assign", "new")])
+def test_a_command_does_what_its_name_says_whatever_another_button_of_it_did_before(package, name, choice):
+    """After *Show All*, *Isolate Parts* found by F3 showed all; the others did so, too.
+
+    Only in a window does Blender keep such choices for the next call.
+    """
+    assert getattr(bpy.ops.reeb_parts, name).get_rna_type().properties[choice].is_skip_save
