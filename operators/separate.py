@@ -39,7 +39,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         fill_in(self, context.scene.reeb_parts_use, SEPARATE)
         # Whether they can be worked on is asked later, where the answer is reported.
         objects = {targets.active_object(context), *targets.selected_objects(context)}
-        long = is_long([obj for obj in objects if obj is not None and obj.type == "MESH"])
+        long = is_long([obj for obj in objects if obj is not None and obj.type == "MESH"], self)
         return self.start(context) if long else self.execute(context)
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -14,6 +14,7 @@ from . import another_window, redraw, running, store
 from .errors import SceneError, translated
 from .reporting import ReportingOperator
 from .runs import jobs
+from .settings import SeparateProperties
 from .transaction import transaction
 
 #: With so many vertices it can take a second or more: then there is progress, and Esc.
@@ -26,8 +27,13 @@ _OF_A_PART = 40
 _BREATH = 0.1
 
 
-def is_long(objects: list[bpy.types.Object]) -> bool:
-    """Whether to make objects of the parts of some objects can take a second or more."""
+def is_long(objects: list[bpy.types.Object], style: SeparateProperties) -> bool:
+    """Whether to make objects of the parts of some objects can take a second or more.
+
+    With joints, or cut to fit a bed, it does of any model: each place and each plane is tried.
+    """
+    if style.joints != "NONE" or style.fit_bed:
+        return True
     return sum(len(obj.data.vertices) + _OF_A_PART * len(obj.data.reeb_parts.parts)
                for obj in objects if store.has_result(obj.data)) >= LARGE
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts that are longer than the printer's bed are cut further: closed, together what they were, and joined alike."""
 
+import sys
 
 import bpy
 import numpy as np
@@ -118,3 +119,12 @@ def test_a_second_run_replaces_all_pieces(make):
 def test_undo(obj):
     bpy.ops.reeb_parts.decompose(n_parts=2)
     check_undo(lambda: bpy.ops.reeb_parts.separate(fit_bed=True, bed=(1500.0, 1500.0, 1500.0), joints="ROUND"))
+
+
+@pytest.mark.parametrize(("name", "value"), [("fit_bed", True), ("joints", "ROUND")])
+def test_in_the_window_there_is_progress_however_few_faces_there_are(package, obj, result, name, value):
+    """Of an animal of 3,000 vertices, cut to fit a bed and joined, Blender stood still for five seconds."""
+    is_long, style = sys.modules[f"{package}.scene.stepped"].is_long, bpy.context.scene.reeb_parts_use
+    assert not is_long([obj], style)
+    setattr(style, name, value)
+    assert is_long([obj], style)
