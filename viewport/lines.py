@@ -108,7 +108,8 @@ class Surface:
         """Fill what is seen of it. matrix : from the mesh to the world. is_perspective : whether the view is."""
         batch = self.batch
         if bpy.context.region_data.use_clip_planes:
-            kept = ~is_clipped(bpy.context.region_data, self.triangles.mean(axis=1), matrix)
+            outside = is_clipped(bpy.context.region_data, self.triangles.reshape(-1, 3), matrix)
+            kept = ~outside.reshape(-1, 3).any(axis=1)
             if not kept.any():
                 return
             batch = self._batch(self.triangles[kept])
