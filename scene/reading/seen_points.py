@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.indexing import sums_by
+from ...core.arrays.int64 import arange
 from ...core.arrays.vectors import cross
 from ...core.mesh.corners import next_of_owner
 from . import half_models, mesh_arrays
@@ -109,7 +110,7 @@ def seen_halves(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[np.n
     else:
         return None
     middles = mesh_arrays.face_middles(mesh)[0][len(mesh.polygons) // 2:]
-    return points[vertex], sums_by(np.repeat(np.arange(count), sizes), middles, count) / sizes[:, None]
+    return points[vertex], sums_by(np.repeat(arange(count), sizes), middles, count) / sizes[:, None]
 
 
 def corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray:
