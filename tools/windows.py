@@ -89,7 +89,8 @@ def _make_python(environment: Environment) -> Path:
     _unpack_python(environment.python, folder)
     site = folder / "Lib" / "site-packages"
     _pip("install", "--target", str(site), "--python-version", environment.python, "--platform=win_amd64",
-         "--only-binary=:all:", "--no-compile", *environment.packages, "colorama")  # which pytest has there
+         "--only-binary=:all:", "--no-compile", "--ignore-requires-python",  # which pip compares with its own Python
+         *environment.packages, "colorama")  # the last is one that pytest has there alone
     stamp.write_text(content, encoding="utf-8")
     return folder / "python.exe"
 
@@ -109,7 +110,11 @@ def _unpack_python(version: str, folder: Path) -> None:
     with zipfile.ZipFile(folder / f"{name}.zip") as library:
         library.extractall(folder / "Lib")
     (folder / f"{name}._pth").unlink()  # which has it heed no variables
-    (folder / "_wmi.pyd").unlink(missing_ok=True)  # asks Windows for more than Wine knows
+    # Both ask Windows for more than Wine knows; Python goes without where they are missing.
+    (folder / "_wmi.pyd").unlink(missing_ok=True)
+    site = folder / "Lib" / "site-packages"
+    site.mkdir(exist_ok=True)
+    (site / "sitecustomize.py").write_text("import _winapi\nvars(_winapi).pop('CopyFile2', None)\n", encoding="utf-8")
 
 
 def _download(package: str, version: str, place: Path, *options: str) -> None:
