@@ -27,6 +27,7 @@ from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure, write_re
 LOOK = 0.5  # seconds between two looks at the memory of the process
 START = 120.0  # seconds that the process may take to import everything, on a busy machine
 LEAST = 2**24  # bytes without which no model can be done
+GLANCE = 0.02  # seconds between two looks at what has come in, on Windows
 STARTS = 2  # how often it is started for a model, if it ends before it is ready
 KILLED = "it was killed"  # why it did not start, when the system or somebody ended it
 ENDED: dict[str, Any] = {}  # in place of a message: there will be none any more
@@ -240,8 +241,28 @@ def _read_jobs(jobs: queue.SimpleQueue[dict[str, Any]]) -> None:
 
 def _lines(descriptor: int) -> Iterator[bytes]:
     """Lines of a pipe as they come."""
-    with os.fdopen(descriptor, "rb", closefd=False) as stream:
-        yield from stream
+    partial = b""
+    while some := _next_bytes(descriptor):
+        *lines, partial = (partial + some).split(b"\n")
+        yield from lines
+
+
+def _next_bytes(descriptor: int) -> bytes:
+    """What comes through a pipe next; nothing at its end.
+
+    While a thread waits in standard input, Windows loads no libraries that ask what standard input is: OpenBLAS would
+    never be there. So the pipe is looked at now and then.
+    """
+    if sys.platform == "win32":
+        import _winapi
+        import msvcrt
+
+        try:
+            while not _winapi.PeekNamedPipe(msvcrt.get_osfhandle(descriptor), 0)[0]:
+                time.sleep(GLANCE)
+        except BrokenPipeError:
+            return b""
+    return os.read(descriptor, 1 << 16)
 
 
 def _limit_memory(limit: int) -> None:
