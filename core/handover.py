@@ -8,6 +8,8 @@ no code. A result arrives bit by bit as it was made.
 from __future__ import annotations
 
 import json
+import shutil
+import time
 import zipfile
 from dataclasses import asdict
 from pathlib import Path
@@ -90,6 +92,18 @@ def read_result(folder: Path, number: int) -> Decomposition:
         raise OSError(f"result {number} is damaged") from error
     notes = tuple(sentence_of(note) for note in head["notes"])
     return Decomposition.from_arrays(arrays, Parameters(**head["parameters"]), notes, head["seconds"], head["version"])
+
+
+def remove(folder: Path) -> None:
+    """Remove the folder of a request, if that can be done.
+
+    On Windows a process that has just ended, or a virus scanner, may hold files a moment longer.
+    """
+    for pause in (0.02, 0.1, 0.5, 0.0):
+        shutil.rmtree(folder, ignore_errors=True)
+        if not folder.exists():
+            return
+        time.sleep(pause)
 
 
 def _arrays(path: Path) -> dict[str, np.ndarray]:

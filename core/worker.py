@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import signal
 import sys
 import time
@@ -20,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import ReebError
-from .handover import arguments, plain_error, read_request, read_shape, write_result
+from .handover import arguments, plain_error, read_request, read_shape, remove, write_result
 from .memory import keep_freed_memory
 from .parameters import Parameters
 from .pipeline import decompose
@@ -113,7 +112,7 @@ def _end_if_alone(folder: Path) -> None:
         return
     os.close(1)  # files in the folder, which some systems do not remove while they are open
     os.close(2)
-    shutil.rmtree(folder, ignore_errors=True)
+    remove(folder)
     os._exit(1)
 
 

@@ -6,11 +6,9 @@ from __future__ import annotations
 import importlib
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -46,15 +44,6 @@ def interpreter() -> str | None:
     return path
 
 
-def _remove(folder: Path) -> None:
-    """Remove a folder; on Windows a process that was killed, or a virus scanner, may hold files a moment longer."""
-    for pause in (0.02, 0.1, 0.5, 0.0):
-        shutil.rmtree(folder, ignore_errors=True)
-        if not folder.exists():
-            return
-        time.sleep(pause)
-
-
 class Worker:
     """A process that decomposes shapes.
 
@@ -88,7 +77,7 @@ class Worker:
             handover.write_request(self.folder, [shape.arrays for shape in shapes], parameters)
             self._process = self._start(python, threads)
         except BaseException:
-            shutil.rmtree(self.folder, ignore_errors=True)
+            handover.remove(self.folder)
             raise
         self._messages = open(self.folder / "messages", "rb")  # noqa: SIM115 - read until the process has ended
         self._partial = b""
@@ -155,7 +144,7 @@ class Worker:
         if self._process.stdin:
             self._process.stdin.close()
         self._messages.close()
-        _remove(self.folder)
+        handover.remove(self.folder)
 
 
 def _libraries() -> list[str]:
