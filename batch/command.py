@@ -251,7 +251,7 @@ def _standard_output() -> Iterator[TextIO]:
     That stays so to the end of the process, which has more to print.
     """
     sys.stdout.flush()
-    answer = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    answer = os.fdopen(os.dup(1), "w", encoding="utf-8", newline="\n")  # the bytes of --json on Windows, too
     # Before anything is written that could be aimed at it.
     os.dup2(2, 1)
     try:

@@ -17,6 +17,7 @@ import bpy
 import messages
 import pytest
 from bpy.app.translations import pgettext_iface as iface_
+from systems import unix
 
 ENGLISH = {
     "no object": "There is no active object. Select a mesh and try again.",
@@ -243,6 +244,7 @@ def test_progress(said, package):
     assert progress_text(job) == said["progress"].removeprefix("BODY: ").replace("reeb graph", "Reeb graph")
 
 
+@unix
 def test_why_there_is_no_result(said, obj, package):
     jobs, bridge, parameters = (
         importlib.import_module(f"{package}.{name}") for name in ("scene.runs.jobs", "scene.bridge", "core.parameters"))

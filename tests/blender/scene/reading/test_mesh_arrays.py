@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from bulk import read
+from systems import unix
 
 
 @pytest.mark.parametrize("flat", [False, True])
@@ -41,6 +42,7 @@ def test_an_attribute_that_only_has_the_name_of_a_setting_is_left_alone(package)
     assert read(mesh.attributes["material_index"].data, "value").tolist() == [0.25, 0.5, 0.75]
 
 
+@unix  # Windows measures no milliseconds
 def test_shape_keys_are_read_and_written_as_blender_has_them_in_no_time(package):
     """One by one, as by their data, a face with all its keys took longer than all the rest of Separate."""
     module = importlib.import_module(f"{package}.scene.reading.mesh_arrays")

@@ -126,7 +126,7 @@ def test_none_of_several_files_is_in_place_if_one_cannot_be_moved(package, tmp_p
             second.unlink()
             second.mkdir()
 
-    with pytest.raises(Exception, match="b.json could not be written: Is a directory"):
+    with pytest.raises(Exception, match="b.json could not be written: "):
         write()
     assert first.read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.json", "b.json"]
