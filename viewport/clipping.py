@@ -8,6 +8,12 @@ import numpy as np
 from mathutils import Matrix
 
 
+def clipped_view() -> bpy.types.RegionView3D | None:
+    """The view that is drawn, if Alt+B leaves only a part of it."""
+    view = bpy.context.region_data  # none where something is drawn into a picture
+    return view if view is not None and view.use_clip_planes else None
+
+
 def clip_planes(view: bpy.types.RegionView3D) -> np.ndarray:
     """The sides of what Alt+B leaves of a view, (4, 4) float64, less than 0 outside; or (0, 4)."""
     return np.array(view.clip_planes, np.float64).reshape(-1, 4)[:4 if view.use_clip_planes else 0]

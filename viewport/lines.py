@@ -12,7 +12,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..scene.errors import SceneError
-from .clipping import clipped_lines, is_clipped
+from .clipping import clipped_lines, clipped_view, is_clipped
 
 NEARER = 0.002  # by what share of its distance a fill is drawn nearer than the surface, in perspective
 FLAT = 2e-5  # and without, as a share of the depth of the view
@@ -55,8 +55,8 @@ class Lines:
         width : in pixels of a screen without scaling.
         """
         scale, batch = bpy.context.preferences.system.ui_scale, self.batch
-        if bpy.context.region_data.use_clip_planes:
-            left, kept = clipped_lines(bpy.context.region_data, self.points.reshape(-1, 2, 3), matrix)
+        if view := clipped_view():
+            left, kept = clipped_lines(view, self.points.reshape(-1, 2, 3), matrix)
             if not kept.any():
                 return
             colors = None if self.colors is None else self.colors[np.repeat(kept, 2)]
@@ -107,8 +107,8 @@ class Surface:
     def draw(self, matrix: Matrix, color: tuple[float, ...], is_perspective: bool) -> None:
         """Fill what is seen of it. matrix : from the mesh to the world. is_perspective : whether the view is."""
         batch = self.batch
-        if bpy.context.region_data.use_clip_planes:
-            outside = is_clipped(bpy.context.region_data, self.triangles.reshape(-1, 3), matrix)
+        if view := clipped_view():
+            outside = is_clipped(view, self.triangles.reshape(-1, 3), matrix)
             kept = ~outside.reshape(-1, 3).any(axis=1)
             if not kept.any():
                 return
