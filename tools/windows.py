@@ -25,7 +25,7 @@ import environments
 from environments import HYPOTHESIS, PYTEST, ROOT, SCIPY, Environment, fail, say
 
 FOLDER = ROOT / ".venv" / "windows"
-#: The tests of each, and the folder: as many in the Python of Blender 4.2 as in that of Linux, with its NumPy.
+#: Which tests run where: those of core with the NumPy of Blender 4.2, the oldest.
 SUITES = {
     "unit": (Environment("unit", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, HYPOTHESIS)), "tests/unit"),
     "blender-4.2": (environments.BLENDER_42, "tests/blender"),
