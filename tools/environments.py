@@ -27,6 +27,10 @@ HYPOTHESIS = "hypothesis==6.170.15"
 #: What the tests check the JSON with.
 JSONSCHEMA = "jsonschema==4.26.0"
 
+#: Blender as a module may crash or wait for ever while it is torn down at the end of Python: 4.2 as soon as anything
+#: has registered a callback (a command, a handler, an update function), 4.5 in a thread of its own. So it is left.
+PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
+
 #: Shared libraries that Blender as a Python module loads, and the Debian package of each.
 LIBRARIES = {
     "libGL.so.1": "libgl1",

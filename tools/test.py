@@ -36,7 +36,7 @@ from functools import cache, partial
 from pathlib import Path
 
 import environments
-from environments import HYPOTHESIS, JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
+from environments import HYPOTHESIS, JSONSCHEMA, PYTEST, PYTEST_AND_LEAVE, ROOT, SCIPY, Environment, say
 
 LINT = environments.lint()
 NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, HYPOTHESIS, JSONSCHEMA)
@@ -68,9 +68,6 @@ SUITES = {
     "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
     "unit-newest": Suite(NEWEST, "tests/unit"),
 }
-# Blender as a module may crash or wait for ever while it is torn down at the end of Python: 4.2 as soon as anything
-# has registered a callback (a command, a handler, an update function), 4.5 in a thread of its own. So it is left.
-PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: What of their tables the Blenders but the newest try, see tests/diagonal.py.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
 #: Where time is short: what leaves sixths of the operator tests, see there, too, and which: each test is tried in one

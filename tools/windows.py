@@ -22,7 +22,7 @@ import zipfile
 from pathlib import Path
 
 import environments
-from environments import HYPOTHESIS, PYTEST, ROOT, SCIPY, Environment, fail, say
+from environments import HYPOTHESIS, PYTEST, PYTEST_AND_LEAVE, ROOT, SCIPY, Environment, fail, say
 
 FOLDER = ROOT / ".venv" / "windows"
 #: Which tests run where: those of core with the NumPy of Blender 4.2, the oldest.
@@ -41,8 +41,6 @@ _WINE = {
     "WINEPREFIX": str(FOLDER / "wine"), "WINEDEBUG": "-all", "OMP_NUM_THREADS": "1",
     "WINEDLLOVERRIDES": ";".join(f"{name}=n,b" for names in RUNTIME.values() for name in names),
 }
-# As in tools/test.py: Blender as a module may crash while it is torn down.
-_PYTEST = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 
 
 def main() -> None:
@@ -135,7 +133,7 @@ def _run_tests(name: str, for_pytest: list[str]) -> int:
     say(f"{name}: pytest {tests} (Python {environment.python} for Windows; {', '.join(environment.packages)})")
     with tempfile.TemporaryDirectory() as resources:
         options = ["-q", "-p", "no:cacheprovider", *for_pytest]
-        return _wine([str(python), "-c", _PYTEST, tests, *options], BLENDER_USER_RESOURCES=f"Z:{resources}")
+        return _wine([str(python), "-c", PYTEST_AND_LEAVE, tests, *options], BLENDER_USER_RESOURCES=f"Z:{resources}")
 
 
 def _wine(command: list[str], **variables: str) -> int:
