@@ -9,7 +9,7 @@ from core import TriMesh, decompose
 from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.mesh.face_graph import FaceGraph
-from core.result.slivers import SHARD, TINY, without_slivers
+from core.result.slivers import LONG, NARROW, SHARD, TINY, without_slivers
 
 
 def strip(*lengths):
@@ -71,6 +71,43 @@ def test_slivers_of_two_candidates_join_one():
     graph.length[8999] = 2.0
     hierarchy = Hierarchy.of(4, [(1, 2), (0, 1), (0, 3)], [0.1, 0.9, 0.9])
     assert np.bincount(label_without(graph, label, hierarchy)).tolist() == [9002, 0, 0, 3000]
+
+
+def grid(label):
+    """The graph of unit squares side by side, and their labels; label : (rows, columns)."""
+    number = np.arange(label.size).reshape(label.shape)
+    pairs = np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in
+                            ((number[:, :-1], number[:, 1:]), (number[:-1], number[1:]))])
+    return FaceGraph(label.size, pairs, np.ones(len(pairs)), np.ones(label.size)), label.ravel()
+
+
+@pytest.mark.parametrize(("shape", "joins"), [((1, 10), True), ((2, 5), False), ((1, 6), False)])
+def test_a_small_part_that_is_nearly_all_outline_joins_what_is_around_it(shape, joins):
+    """22 around 10 squares is 7.0 times the square root, 14 around as many 4.4, and 14 around 6 is 5.7."""
+    label = np.zeros((30, 30), np.int64)
+    label[12 : 12 + shape[0], 12 : 12 + shape[1]] = 1
+    graph, label = grid(label)
+    assert (label_without(graph, label, all_apart(2)) == (0 if joins else label)).all()
+    assert 10 / 900 < NARROW < 20 / 900
+    assert 14 / np.sqrt(6) < LONG < 22 / np.sqrt(10)
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_a_part_with_two_equal_boundaries_joins_if_both_are_with_one_part(apart):
+    label = np.zeros((61, 10), np.int64)
+    label[30], label[31:] = 1, 2
+    graph, label = grid(label)
+    hierarchy = Hierarchy.of(3, [(0, 2), (0, 1)], [0.9 if apart else 0.1, 0.9])
+    found = label_without(graph, label, hierarchy)
+    assert np.bincount(found).tolist() == ([300, 10, 300] if apart else [300, 0, 310])
+
+
+@pytest.mark.parametrize(("around", "inner", "length"), [(32, 0.5, 1.0), (48, 0.6, 1.0), (24, 0.7, 1.5)])
+def test_a_pipe_is_one_part(around, inner, length):
+    """Some of the faces of the hollow were parts."""
+    vertices, faces = shapes.pipe(around, 2, inner)
+    vertices[:, 2] *= length / np.ptp(vertices[:, 2])
+    assert decompose(vertices, faces).parts().count == 1
 
 
 @pytest.mark.parametrize("name", ["mirrored_figure", "tube_tree", "dumbbell"])
