@@ -65,6 +65,7 @@ class Environment:
 BLENDER_42 = Environment("blender-4.2", "3.11", ("bpy==4.2.23", "numpy==1.24.3", SCIPY, PYTEST))
 BLENDER_45 = Environment("blender-4.5", "3.11", ("bpy==4.5.15", "numpy==1.26.4", SCIPY, PYTEST))
 BLENDER_52 = Environment("blender-5.2", "3.13", ("bpy==5.2.3", "numpy==2.3.4", SCIPY, PYTEST))
+BLENDER_53 = Environment("blender-5.3", "3.13", ("bpy==5.3.0", "numpy==2.3.4", SCIPY, PYTEST))
 
 
 def say(text: str) -> None:

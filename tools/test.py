@@ -66,6 +66,7 @@ SUITES = {
     "blender-4.2": Suite(environments.BLENDER_42, "tests/blender"),
     "blender-4.5": Suite(environments.BLENDER_45, "tests/blender"),
     "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
+    "blender-5.3": Suite(environments.BLENDER_53, "tests/blender"),
     "unit-newest": Suite(NEWEST, "tests/unit"),
 }
 #: What of their tables the Blenders but the newest try, see tests/diagonal.py.
@@ -73,7 +74,7 @@ DIAGONAL = "REEB_PARTS_DIAGONAL"
 #: Where time is short: what leaves sixths of the operator tests, see there, too, and which: each test is tried in one
 #: Blender, as a module or in full.
 SIXTHS = "REEB_PARTS_SIXTHS"
-BRIEF_SIXTHS = {"blender-4.2": "15", "blender-4.5": "3", "blender-5.2": "02", "inside": "4"}
+BRIEF_SIXTHS = {"blender-4.2": "15", "blender-4.5": "3", "blender-5.2": "2", "blender-5.3": "0", "inside": "4"}
 #: And what leaves half of the cases of long tables, see there as well.
 HALF = "REEB_PARTS_HALF"
 HALVED = {*BRIEF_SIXTHS, "unit-newest", "unit-oldest", "fuzz-blender"}
