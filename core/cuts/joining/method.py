@@ -25,7 +25,7 @@ from ..hierarchy import LAST, Hierarchy
 from .distant import FEATURES as DISTANT_FEATURES
 from .distant import DistantPairs, distant_pairs
 from .linkage import JudgedPairs, Linkage, average_linkage
-from .pairs import FEATURES, PartPairs, part_pairs
+from .pairs import FEATURES, PartPairs, part_pairs, unseen_neighbors
 from .repetition import evenly_linked, piece_kinds
 
 # Cuts within a piece of less salience than this are not judged anew: FINE where a salience is the share of people who
@@ -40,6 +40,9 @@ SHARE_AT_HALF = 0.5
 LARGE, EASE = 0.1, 0.1
 # Weight of what the first model says of a pair that comes near each other; what the second says of any pair has 1.
 NEARNESS = 20.0
+# Weight of what the method of cutting says of neighbors that do not come near each other by points: it lets groups
+# join, and decides where nothing else is known of them.
+UNSEEN = 1e-6
 SURE = 1e-4, 1 - 1e-4  # bounds of a judgement, whose log-odds are to be finite
 CUT = 0.02, 0.98  # bounds of a salience, for the same reason
 
@@ -57,6 +60,10 @@ class FineParts:
     hierarchy : Hierarchy
         Over the candidates; merges within pieces only.
     pairs : PartPairs
+    neighbors : (k, 2) int64
+        Further pairs of parts: they share an edge, but no points of theirs come near each other.
+    neighbor_faces : (k, 2) int64
+        A face of either that share an edge.
     fine : float
         Salience below which candidates are together in them.
     within : float
@@ -69,6 +76,8 @@ class FineParts:
     candidate: np.ndarray
     hierarchy: Hierarchy
     pairs: PartPairs
+    neighbors: np.ndarray
+    neighbor_faces: np.ndarray
     fine: float
     within: float
     kind: np.ndarray
@@ -121,7 +130,8 @@ def fine_parts(
     candidate = np.zeros(len(present), np.int64)
     candidate[part] = label
     pairs = part_pairs(mesh, part, lambda a, b: hierarchy.salience_between(candidate[a], candidate[b]), agd)
-    return FineParts(part, candidate, hierarchy, pairs, fine, within, piece_kinds(mesh))
+    neighbors = unseen_neighbors(mesh, part, pairs.parts)
+    return FineParts(part, candidate, hierarchy, pairs, *neighbors, fine, within, piece_kinds(mesh))
 
 
 def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierarchy, np.ndarray]:
@@ -143,13 +153,14 @@ def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierar
     model = model or join_model()
     pairs = parts.pairs
     odds = near_odds(parts, model.near)
-    judged = _near_pairs(parts, odds)
+    judged = _with_neighbors(parts, odds)
     if model.distant and len((distant := compare_distant(parts, odds)).parts):
-        judged = _with_distant(parts, odds, distant, model.distant)
+        judged = _with_distant(parts, judged, distant, model.distant)
     linked = evenly_linked(partial(_linked, parts), judged, pairs.shapes.piece, parts.kind)
     strength = np.interp(1 / (1 + np.exp(-linked.scores)), [0.0, SHARE_AT_HALF, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
-    contacts = pairs.faces[np.union1d(linked.rows, np.flatnonzero(touching))]
+    faces = np.concatenate([pairs.faces, parts.neighbor_faces])
+    contacts = faces[np.union1d(linked.rows, np.flatnonzero(touching))]
     hierarchy = parts.hierarchy
     kept = hierarchy.salience < parts.fine
     extended = Hierarchy.of(
@@ -201,23 +212,32 @@ def _near_pairs(parts: FineParts, odds: np.ndarray) -> JudgedPairs:
     return JudgedPairs(near, odds, _pair_weight(parts, near), np.ones(len(near), bool))
 
 
+def _with_neighbors(parts: FineParts, odds: np.ndarray) -> JudgedPairs:
+    """The pairs that come near each other, and the neighbors that do not, judged by the method of cutting alone."""
+    near = _near_pairs(parts, odds)
+    cut = _log_odds(1 - np.clip(parts.salience(*parts.neighbors.T), *CUT))
+    return JudgedPairs(
+        np.concatenate([near.members, parts.neighbors]), np.concatenate([near.score, on_grid(cut)]),
+        np.concatenate([near.weight, UNSEEN * _pair_weight(parts, parts.neighbors)]),
+        np.ones(len(near.members) + len(cut), bool))
+
+
 def _with_distant(
-    parts: FineParts, odds: np.ndarray, distant: DistantPairs, model: BoostedTrees
+    parts: FineParts, near: JudgedPairs, distant: DistantPairs, model: BoostedTrees
 ) -> JudgedPairs:
-    """The pairs that come near each other, first, and all others of the largest parts.
+    """The pairs that can join parts, first, and all others of the largest parts.
 
     A pair that is both has one row, with the weighted mean of what both models say.
     """
-    near, count = parts.pairs.parts, len(parts.candidate)
-    pairs = np.concatenate([near, distant.parts])
-    judged = np.concatenate([odds, on_grid(_judged(model, distant.features))])
-    weight = _pair_weight(parts, pairs)
-    weight[:len(near)] *= NEARNESS
+    count = len(parts.candidate)
+    pairs = np.concatenate([near.members, distant.parts])
+    judged = np.concatenate([near.score, on_grid(_judged(model, distant.features))])
+    weight = np.concatenate([NEARNESS * near.weight, _pair_weight(parts, distant.parts)])
     _, first, row = np.unique(pair_keys(pairs, count), return_index=True, return_inverse=True)
     total = np.bincount(row, weight)
     mean = np.bincount(row, weight * judged) / total
     order = np.argsort(first)  # the near pairs keep their places
-    return JudgedPairs(pairs[first[order]], on_grid(mean[order]), total[order], first[order] < len(near))
+    return JudgedPairs(pairs[first[order]], on_grid(mean[order]), total[order], first[order] < len(near.members))
 
 
 def _linked(parts: FineParts, pairs: JudgedPairs) -> Linkage:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays.indexing import last_of_each, run_starts
 from ...arrays.int64 import arange, cumsum
-from ...arrays.pairs import distinct_pairs
+from ...arrays.pairs import distinct_pairs, pair_keys
 from ...arrays.ties import rounded
 from ...arrays.vectors import middles_of_each
 from ...mesh.triangles import TriMesh
@@ -114,6 +114,34 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
     return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], shapes)
+
+
+def unseen_neighbors(mesh: TriMesh, label: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Find the parts that share an edge and are not among some pairs, as where faces are larger than NEAR.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+    label : (m,) int64
+        Part of each face, 0..c-1.
+    seen : (e, 2) int64
+        Pairs of parts, the smaller index first.
+
+    Returns
+    -------
+    parts : (k, 2) int64
+        Each pair once, the smaller index first.
+    faces : (k, 2) int64
+        Of each pair a face of either that share an edge.
+    """
+    at_edge = label[mesh.edges.pairs]
+    apart = np.flatnonzero(at_edge[:, 0] != at_edge[:, 1])
+    parts, row = distinct_pairs(*np.sort(at_edge[apart], axis=1).T)
+    edge = apart[last_of_each(row, -arange(len(row)), count=len(parts))]
+    count = int(label.max()) + 1
+    unseen = ~np.isin(pair_keys(parts, count), pair_keys(seen, count))
+    return parts[unseen], mesh.edges.pairs[edge[unseen]]
 
 
 def cut_between(salience: Salience, first: np.ndarray, second: np.ndarray, same_piece: np.ndarray) -> np.ndarray:

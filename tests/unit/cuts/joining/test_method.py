@@ -7,6 +7,8 @@ import shapes
 
 from core import Parameters, TriMesh, decompose
 from core.arrays.components import components
+from core.cuts.hierarchy import Hierarchy
+from core.cuts.joining.method import JoinModel, fine_parts, join_model, join_parts
 from core.metrics import rand_index_error
 
 
@@ -53,6 +55,23 @@ def test_a_mesh_taken_apart_and_pushed_together(name, preset):
         count = label.max() + 1
         error = rand_index_error(whole.parts(n_parts=count).labels, result.parts(n_parts=count).labels)
         assert error < 0.1
+
+
+@pytest.mark.parametrize("salience", [0.2, 0.8])
+def test_parts_of_large_faces_beside_a_dense_piece_join_as_the_method_of_cutting_says(salience):
+    """The points that stand for the surface lie on the ball, so that none of the two halves of the plate are near."""
+    plate = shapes.flat_grid(6, 6, 2.0)
+    mesh = TriMesh(*shapes.together(plate, shapes.moved(shapes.icosphere(5, 0.2), (6.0, 6.0, 0.2))))
+    middle = mesh.face_centroids[:, 0]
+    on_plate = np.arange(mesh.n_faces) < len(plate.faces)
+    label = np.where(on_plate, (middle > 6.0).astype(int), 2)
+    found = Hierarchy.of(3, [(0, 1)], [salience])
+    parts = fine_parts(mesh, label, found, np.zeros(mesh.n_vertices))
+    assert parts.neighbors.tolist() == [[0, 1]]
+    assert label[parts.neighbor_faces].tolist() == [[0, 1]]
+    hierarchy, contacts = join_parts(parts, JoinModel(join_model().near, None))
+    assert (hierarchy.salience_between(*np.array([[0], [1]]))[0] < 0.5) == (salience < 0.5)
+    assert parts.neighbor_faces.tolist()[0] in contacts.tolist()
 
 
 def test_two_far_spheres():

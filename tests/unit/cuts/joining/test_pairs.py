@@ -7,7 +7,7 @@ import shapes
 
 from core import TriMesh
 from core.cuts.joining import pairs
-from core.cuts.joining.pairs import FEATURES, MOST_NEAR, part_pairs
+from core.cuts.joining.pairs import FEATURES, MOST_NEAR, part_pairs, unseen_neighbors
 
 
 def measured(shape, label=None):
@@ -45,6 +45,18 @@ def test_who_is_near_whom():
     assert found.parts.tolist() == [[0, 1], [0, 2], [2, 3]]
     assert found.same_piece.tolist() == [False, False, True]
     assert (found.gap >= 0).all()
+
+
+def test_every_two_parts_that_share_an_edge_are_seen_or_unseen_neighbors():
+    shape, label = furniture()
+    mesh = TriMesh(*shape)
+    at_edge = np.unique(np.sort(label[mesh.edges.pairs], axis=1), axis=0)
+    at_edge = at_edge[at_edge[:, 0] != at_edge[:, 1]]
+    found, faces = unseen_neighbors(mesh, label, np.empty((0, 2), np.int64))
+    assert found.tolist() == at_edge.tolist() == [[2, 3]]
+    assert np.sort(label[faces], axis=1).tolist() == found.tolist()
+    assert len(set(mesh.faces[faces[0, 0]]) & set(mesh.faces[faces[0, 1]])) == 2
+    assert not len(unseen_neighbors(mesh, label, found)[0])
 
 
 def test_scale_and_place_change_nothing():
