@@ -27,6 +27,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from .arrays.indexing import largest_of_each
+from .arrays.pairs import distinct_pairs
 from .errors import ParameterError
 from .mesh.arguments import numbers, whole_numbers
 from .mesh.polygons import normalized
@@ -75,10 +76,8 @@ class Overlap:
         """
         first, second = _numbered(first), _numbered(second)
         _check_count(len(second), len(first), "second")
-        width = int(second.max()) + 1
-        cell, where, count = np.unique(first * width + second, return_inverse=True, return_counts=True)
-        count = count.astype(np.float64)
-        pair = np.stack(np.divmod(cell, width), axis=1)
+        pair, place = distinct_pairs(first, second)
+        count = np.bincount(place).astype(np.float64)
         if weight is None:
             return cls(pair, count, count)
         weight = numbers(weight, truth=True)
@@ -86,7 +85,7 @@ class Overlap:
         _check_count(len(weight), len(first), "weight")
         if not ((weight >= 0).all() and 0 < weight.sum() < np.inf):
             raise ParameterError(Sentence("Weights must be 0 or more, finite, and not all of them 0."), "weight")
-        return cls(pair, count, np.bincount(where.reshape(-1), weight, len(cell)))
+        return cls(pair, count, np.bincount(place, weight, len(pair)))
 
     @property
     def rand_index_error(self) -> float:

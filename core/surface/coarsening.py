@@ -12,7 +12,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.indexing import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
+from ..arrays.indexing import (
+    GOLDEN,
+    first_of_rows,
+    inverse,
+    largest_of_each,
+    place_among,
+    run_starts,
+    stable_order,
+    sums_by,
+    taken,
+)
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways
 from ..arrays.ties import TIE
@@ -210,10 +220,8 @@ def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.nda
 
 def _largest_rise(links: np.ndarray, values: np.ndarray) -> np.ndarray:
     """The largest difference, (c,), of the value at each vertex to those at its linked neighbors."""
-    largest, rise = np.zeros(len(values)), np.abs(values[links[:, 0]] - values[links[:, 1]])
-    for end in links.T:
-        np.maximum.at(largest, end, rise)
-    return largest
+    rise = np.abs(values[links[:, 0]] - values[links[:, 1]])
+    return largest_of_each(links.ravel(), np.repeat(rise, 2), len(values))
 
 
 def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -69,7 +69,7 @@ def completed(half: PolygonMesh, plane: np.ndarray) -> Completed:
         A vertex of a border nearer to the plane than WELD is on it.
     """
     mesh = half.triangles
-    border = mesh.edges.vertices[np.bincount(mesh.edges.face_edges.ravel()) == 1]
+    border = mesh.edges.vertices[mesh.edges.n_faces == 1]
     vertices, image = _with_images(mesh.vertices, mesh.used, border, MirrorPlane.of(plane))
     return Completed(vertices, np.concatenate([mesh.faces, image[mesh.faces[:, ::-1]]]),
                      np.concatenate([half.polygon, half.polygon + half.n_polygons]))
