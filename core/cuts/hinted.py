@@ -75,7 +75,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
     least = LEAST_CUT_OUT * graph.area.sum()
     a, b = graph.pairs.T
     alike = hint[a] == hint[b]
-    region = components(len(hint), *graph.pairs[alike].T)[1]
+    region = graph.regions(hint)[1]
     # A region of one hint that is small as a whole does not end candidates.
     speck = (np.bincount(region, graph.area) < least)[region]
     alike |= speck[a] | speck[b]

@@ -7,14 +7,12 @@ import heapq
 
 import numpy as np
 
-from ...arrays.components import components
 from ...arrays.indexing import sums_by
 from ...arrays.int64 import full
 from ...arrays.nearest_seeds import nearest_seeds
-from ...arrays.pairs import pair_keys, symmetric_matrix
+from ...arrays.pairs import distinct_pairs, symmetric_matrix
 from ...arrays.ties import rounded, whole_steps
 from ...mesh.face_graph import FaceGraph
-from ...mesh.labels import label_boundaries
 from ...mesh.triangles import TriMesh
 
 # Share of the area below which a region is a sliver; what parts it from its neighbors counts by the weight only.
@@ -41,15 +39,14 @@ def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
     """
     corners = label[mesh.faces]
     seed = (corners == corners[:, :1]).all(axis=1)
-    first, second = mesh.edges.pairs.T
-    together = seed[first] & seed[second] & (corners[first, 0] == corners[second, 0])
-    core = components(mesh.n_faces, first[together], second[together])[1]
+    graph = FaceGraph.of(mesh)
+    core = graph.regions(np.where(seed, corners[:, 0], -1))[1]
     way = whole_steps(mesh.pair_distance / np.sqrt(mesh.area))
     source = full(mesh.n_faces, -1)
     if seed.any():
         ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
         source = nearest_seeds(ways, np.flatnonzero(seed))[1]
-    return FaceGraph.of(mesh).regions(np.where(source >= 0, core[source], mesh.n_faces))[1]
+    return graph.regions(np.where(source >= 0, core[source], -1))[1]
 
 
 class CurvatureGraph:
@@ -71,14 +68,13 @@ class CurvatureGraph:
         self.small = SLIVER_AREA * mesh.area
         self.area = np.bincount(region, area, count)
         self.sums = sums_by(region, area[:, None] * curvature[mesh.faces].mean(axis=1), count)
-        touching, length = label_boundaries(region, mesh.edges.pairs, mesh.pair_length)
-        length = length + 1e-12 * np.sqrt(mesh.area)
-        pairs = np.sort(region[mesh.edges.pairs], axis=1)
-        apart = pairs[:, 0] != pairs[:, 1]
-        place = np.searchsorted(pair_keys(touching, count), pair_keys(pairs[apart], count))
+        low, high = np.sort(region[mesh.edges.pairs], axis=1).T
+        apart = low != high
+        touching, border = distinct_pairs(low[apart], high[apart])
+        nothing = 1e-12 * np.sqrt(mesh.area)
+        length = sums_by(border, mesh.pair_length[apart], len(touching)) + nothing
         at = curvature[mesh.edges.vertices[mesh.edges.pair_edge[apart]]].mean(axis=1)
-        weight = mesh.pair_length[apart] + 1e-12 * np.sqrt(mesh.area)
-        sums = sums_by(place, weight[:, None] * at, len(touching))
+        sums = sums_by(border, (mesh.pair_length[apart] + nothing)[:, None] * at, len(touching))
         self.perimeter = np.bincount(touching.ravel(), np.repeat(length, 2), count)
         # For each region the length of the border with each neighbor, and the sum of the curvature along it.
         self.neighbors: list[dict[int, tuple[float, np.ndarray]]] = [{} for _ in range(count)]

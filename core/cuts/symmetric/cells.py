@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from ...arrays.components import components, roots
+from ...arrays.components import roots
 from ...arrays.indexing import largest_of_each, renumbered
 from ...arrays.int64 import arange, full
 from ...arrays.pairs import edge_keys
@@ -177,9 +177,7 @@ def _leading_images(graph: FaceGraph, group: SymmetryGroup, side: np.ndarray, le
 
 def _in_large_regions(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.ndarray:
     """Which of the chosen faces, (p,) bool, form connected regions of a least area."""
-    a, b = graph.pairs.T
-    both = np.flatnonzero(chosen[a] & chosen[b])
-    count, region = components(len(chosen), a[both], b[both])
+    count, region = graph.regions(chosen)
     return chosen & (np.bincount(region, graph.area, count) >= least)[region]
 
 

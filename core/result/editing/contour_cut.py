@@ -151,7 +151,7 @@ def contour_sides(
         Faces of the part on the upper side of the cut, which is straightened unless one side would vanish; None if one
         side has no face.
     """
-    piece = components(graph.n_faces, *graph.pairs[inside[graph.pairs].all(axis=1)].T)[1]
+    piece = graph.regions(inside)[1]
     inside = inside & np.isin(piece, piece[inside & crossed])
     ids = np.flatnonzero(inside)
     place = place_among(ids, graph.n_faces)
