@@ -75,7 +75,7 @@ def _indices(values: Any) -> np.ndarray | None:
     array = numbers(values)
     if array is not None and array.dtype == np.uint64:
         return np.minimum(array, _LAST).astype(np.int64)
-    return whole_numbers(values)
+    return None if array is None else whole_numbers(array)
 
 
 def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
