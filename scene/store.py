@@ -76,8 +76,8 @@ class Stored:
 
 
 def has_result(mesh: bpy.types.Mesh) -> bool:
-    """Whether a decomposition is stored with the mesh."""
-    return mesh.is_property_set("reeb_parts") and bool(mesh.reeb_parts.data)
+    """Whether a decomposition is stored with the mesh; every button asks at each redraw, and its bytes are not read."""
+    return mesh.is_property_set("reeb_parts") and mesh.reeb_parts.is_property_set("data")
 
 
 def has_parts(obj: bpy.types.Object | None) -> bool:

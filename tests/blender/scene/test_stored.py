@@ -3,6 +3,7 @@
 
 import io
 import json
+import time
 from contextlib import suppress
 
 import bpy
@@ -95,3 +96,14 @@ def test_a_newer_result_is_kept_and_said_to_be_newer(damaged, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
     assert bpy.data.objects["Tree"].data.reeb_parts.data == kept
+
+
+def test_buttons_do_not_read_the_result_when_they_are_drawn(obj):
+    """Of a million faces it is 10 MB: some forty buttons read it at each redraw, to know that there is one."""
+    bpy.ops.reeb_parts.decompose()
+    obj.data.reeb_parts.data = bytes(2**26)
+    start = time.perf_counter()
+    assert obj.data.reeb_parts.data
+    middle = time.perf_counter()
+    assert all(bpy.ops.reeb_parts.merge.poll() for _ in range(40))
+    assert time.perf_counter() - middle < middle - start
