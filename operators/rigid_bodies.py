@@ -36,7 +36,7 @@ class REEB_PARTS_OT_rigid_bodies(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
         active, *others = dict.fromkeys(map(piece_objects.separated, chosen))
-        objects = [active, *(obj for obj in others if piece_objects.piece_objects(obj) and store.has_result(obj.data))]
+        objects = [active, *(obj for obj in others if piece_objects.has_pieces(obj) and store.has_result(obj.data))]
         n_bodies = n_joints = 0
         with object_mode(context):
             for obj, stored in targets.usable(objects, _current, self.report):

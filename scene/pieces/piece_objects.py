@@ -103,14 +103,14 @@ def original_of(piece: bpy.types.Object) -> bpy.types.Object:
 
 def separated(obj: bpy.types.Object) -> bpy.types.Object:
     """The object itself if it has parts and pieces of its own, else that from which it was separated, if any."""
-    own = store.has_parts(obj) and piece_objects(obj)
+    own = store.has_parts(obj) and has_pieces(obj)
     return obj if own else original(obj) or obj
 
 
 def whole(obj: bpy.types.Object) -> bpy.types.Object:
     """The object that was separated, see ``separated``; raises SceneError if it has no pieces."""
     found = separated(obj)
-    if not piece_objects(found):
+    if not has_pieces(found):
         if NUMBER in found:
             original_of(found)
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=found.name))
