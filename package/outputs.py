@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .core.arrays.indexing import stable_order
-from .core.arrays.int64 import arange
+from .core.arrays.indexing import renumbered, stable_order
+from .core.arrays.int64 import arange, cumsum
+from .core.arrays.pairs import distinct_pairs
 from .core.errors import ParameterError
 from .core.file_names import file_name
 from .core.mesh.arguments import whole_numbers
@@ -99,7 +100,7 @@ def colored_bytes(model: Model, parts: Parts, kind: str) -> bytes:
                                face_colors=face_colors(parts)[model.polygon],
                                face_attributes={"reeb_part": label.astype(np.int32) + 1})
         return _ply_bytes(mesh, rounding)
-    pairs, corner = np.unique(np.stack([np.repeat(label, 3), model.faces.ravel()], 1), axis=0, return_inverse=True)
+    pairs, corner = distinct_pairs(np.repeat(label, 3), model.faces.ravel())
     first = np.unique(label, return_index=True)[1]
     colors = face_colors(parts)[model.polygon][first][pairs[:, 0]]
     mesh = trimesh.Trimesh(model.vertices[pairs[:, 1]], corner.reshape(-1, 3), process=False, vertex_colors=colors)
@@ -111,9 +112,9 @@ def part_arrays(model: Model, parts: Parts) -> list[tuple[np.ndarray, np.ndarray
     label = parts.labels[model.polygon]
     order = stable_order(label)
     arrays = []
-    for own in np.split(order, np.bincount(label, minlength=parts.count).cumsum()[:-1]):
-        used, faces = np.unique(model.faces[own], return_inverse=True)
-        arrays.append((model.vertices[used], faces.reshape(-1, 3)))
+    for own in np.split(order, cumsum(np.bincount(label, minlength=parts.count))[:-1]):
+        used, faces = renumbered(model.faces[own])
+        arrays.append((model.vertices[used], faces))
     return arrays
 
 
