@@ -235,7 +235,7 @@ def expanded(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 def ranges(first: np.ndarray, count: np.ndarray) -> np.ndarray:
     """What ``expanded`` returns without the range of each number: (count.sum(),) int64."""
-    before = np.cumsum(count, dtype=np.int64)
+    before = cumsum(count)
     total = int(before[-1]) if len(before) else 0
     before -= count
     return arange(total) + np.repeat(first - before, count)
@@ -407,7 +407,7 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
         if key.dtype == np.float64:
             largest -= TIE * np.abs(largest)
         rows = rows[values >= largest[of]]
-    last = np.full(count, -1, np.int64)
+    last = full(count, -1)
     last[group[rows]] = rows  # NumPy keeps the last of the values written to one place
     return last
 

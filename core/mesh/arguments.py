@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays.int64 import full
 from ..errors import MeshError
 from ..sentence import Sentence
 
@@ -88,7 +89,7 @@ def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
     if array is not None and array.size == 0 and array.ndim < 3:
         array = array.reshape(0, 3)
     if array is not None and array.ndim == 2:
-        return array.ravel(), np.full(len(array), array.shape[1], np.int64)
+        return array.ravel(), full(len(array), array.shape[1])
     if isinstance(faces, np.ndarray) and faces.dtype.kind == "O" and faces.ndim == 1:
         faces = faces.tolist()
     if array is None and isinstance(faces, Sequence) and not isinstance(faces, (str, bytes)):

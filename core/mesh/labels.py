@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.indexing import last_of_each, sums_by
+from ..arrays.int64 import full
 from ..arrays.pairs import both_ways, distinct_pairs
 
 
@@ -27,7 +28,7 @@ def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners:
     winner : (n_owners,) int64
         Label with the largest sum of weights, of equal ones the smallest label; -1 for an owner without a vote.
     """
-    winner = np.full(n_owners, -1, np.int64)
+    winner = full(n_owners, -1)
     winner[owner] = label
     # Most owners' votes all name one label: only the others' are counted.
     divided = np.zeros(n_owners, bool)

@@ -146,7 +146,7 @@ class Elements:
     def selection(self, faces: np.ndarray) -> Selection:
         """Some faces, (k,) int64, and all that belongs to them."""
         count = self.count[faces].astype(np.int64)
-        first = (np.cumsum(self.count, dtype=np.int64) - self.count)[faces]
+        first = (cumsum(self.count) - self.count)[faces]
         corners = ranges(first, count)
         return Selection(_used(self.corner_vertex[corners], len(self.points)),
                          _used(self.corner_edge[corners], len(self.ends)), faces, corners)

@@ -37,7 +37,7 @@ def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
     _, label = components(decomposition.n_candidates, *_inside(decomposition, mask).T)
     _, label = renumbered(label[mask])
     area = np.bincount(label, decomposition.candidate_area[mask])
-    piece = np.full(len(mask), -1, np.int64)
+    piece = full(len(mask), -1)
     piece[mask] = inverse(np.argsort(-area, kind="stable"))[label]
     return piece
 
@@ -213,7 +213,7 @@ def boundary_distance(
     count = len(inside)
     sides = inside[face_pairs]
     distance = np.full(count, np.inf)
-    across = np.full(count, -1, np.int64)
+    across = full(count, -1)
     # A path begins across the boundary and then stays on one side. It has a length, so that its sign says which.
     length = np.maximum(pair_length, 1e-12 * (pair_length.max(initial=0.0) or 1.0))
     for side in (False, True):
