@@ -55,7 +55,7 @@ def model_document(
 
     corner = np.repeat(parts.labels[model.polygon], 3)
     boxes = bounding_boxes(corner, model.vertices[model.faces].reshape(-1, 3), parts.count)
-    made = document([report(result, parts, model.name, boxes=boxes)], files=files or {})
+    made = document([report(result, parts, model.name, boxes=boxes)], files=files)
     made["versions"]["trimesh"] = trimesh.__version__
     return made
 

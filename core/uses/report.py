@@ -31,16 +31,22 @@ if TYPE_CHECKING:
 SCHEMA_VERSION = 2  # version of docs/json.md
 
 
-def document(reports: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
+def document(
+    reports: list[dict[str, Any]], *, blender: str = "", files: dict[str, Any] | None = None,
+    problems: Iterable[dict[str, str]] = (),
+) -> dict[str, Any]:
     """Put the reports of all objects into one JSON document, with the versions of what made them.
 
     Parameters
     ----------
     reports : list of dict
         One result of ``report`` per object.
-    **more
-        ``blender`` : str, the version of Blender; ``files`` : dict, the files that were written; ``problems`` : list
-        of dict, the name of each object that could not be decomposed, and why.
+    blender : str, optional
+        The version of Blender.
+    files : dict, optional
+        The files that were written, by kind.
+    problems : iterable of dict
+        The name of each object that could not be decomposed, and why.
 
     Returns
     -------
@@ -49,10 +55,10 @@ def document(reports: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     """
     versions = {"reeb_parts": VERSION, "python": platform.python_version(),
                 "numpy": np.__version__, "scipy": scipy.__version__}
-    if "blender" in more:
-        versions["blender"] = more["blender"]
-    return {"schema_version": SCHEMA_VERSION, "versions": versions, "objects": reports,
-            "problems": more.get("problems", []), "files": more.get("files", {})}
+    if blender:
+        versions["blender"] = blender
+    return {"schema_version": SCHEMA_VERSION, "versions": versions, "objects": reports, "problems": list(problems),
+            "files": files or {}}
 
 
 def report(

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays.indexing import renumbered, stable_order
+from ...arrays.indexing import renumbered
 from ...arrays.int64 import arange
 from ...mesh.corners import CornerTable
+from .division import portions
 from .method import CleanCuts
 
 
@@ -105,15 +106,8 @@ def _sides(table: CornerTable, cuts: CleanCuts, after: np.ndarray, divided: np.n
     low, high = table.edge_labels(after)
     wanted = crossed | (low < high)
     wanted[table.corner_edge[divided[table.corner_face]]] = True
-    corner = np.flatnonzero(wanted[table.corner_edge])
-    vertex, edge, face = table.corner_vertex[corner], table.corner_edge[corner], table.corner_face[corner]
-    halved = crossed[edge]
-    forward = table.edges[edge, 0] == vertex
-    order = stable_order(np.concatenate([2 * corner, 2 * corner[halved] + 1]))
-    point, key, face = (np.concatenate(columns)[order].astype(np.int64) for columns in (
-        (vertex, len(table.vertices) + edge[halved]),
-        (2 * edge + (halved & ~forward), 2 * edge[halved] + forward[halved]),
-        (face, face[halved])))
+    corner, _, point, key = portions(table, np.flatnonzero(wanted[table.corner_edge]), crossed)
+    face = table.corner_face[corner].astype(np.int64)
     label = np.where(divided[face], _fragment_labels(cuts, face, point, divided, len(table.vertices) + len(crossed)),
                      after[face])
     order = np.lexsort((label, key))

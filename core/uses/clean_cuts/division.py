@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ...arrays.indexing import begins_run, inverse, stable_order
+from ...arrays.indexing import begins_run, expanded, inverse, stable_order
 from ...arrays.int64 import arange, cumsum
-from ...mesh.corners import next_of_owner
+from ...mesh.corners import CornerTable, next_of_owner
 from ...mesh.labels import majority
 from .band import Band
 from .sides import Sides
@@ -92,27 +92,45 @@ def divide(band: Band, sides: Sides) -> Division:
 
 def _portions(band: Band, sides: Sides) -> tuple[np.ndarray, ...]:
     """Face, first point, side and the one or two labels, the lower first, of each portion, (o,) int64 each."""
-    table = band.table
-    n, crossed = len(band.vertices), ~np.isnan(sides.share)
-    corner, following = arange(len(table.corner_face)), table.next_corner
-    here, there = table.corner_vertex, table.corner_vertex[following]
-    cut = crossed[table.corner_edge]
-    forward = table.edges[table.corner_edge, 0] == here
+    table, crossed = band.table, ~np.isnan(sides.share)
+    corner, beyond, point, side = portions(table, arange(len(table.corner_face)), crossed)
+    here, there = table.corner_vertex[corner], table.corner_vertex[table.next_corner[corner]]
+    cut = crossed[table.corner_edge[corner]]
     low_here, high_here, low_there, high_there = sides.low[here], sides.high[here], sides.low[there], sides.high[there]
     first_common = (low_here == low_there) | (low_here == high_there)
     second_common = (high_here == low_there) | (high_here == high_there)
-    low = np.where(cut | first_common, low_here, high_here)
-    high = np.where(cut | second_common, high_here, low_here)
-    order = stable_order(np.concatenate([2 * corner, 2 * corner[cut] + 1]))
-    edge = table.corner_edge
-    columns = (
-        (table.corner_face, table.corner_face[cut]),
-        (here, n + edge[cut]),
-        (2 * edge + (cut & ~forward), 2 * edge[cut] + forward[cut]),
-        (low, low_there[cut]),
-        (high, high_there[cut]),
-    )
-    return tuple(np.concatenate(column)[order].astype(np.int64) for column in columns)
+    low = np.where(beyond, low_there, np.where(cut | first_common, low_here, high_here))
+    high = np.where(beyond, high_there, np.where(cut | second_common, high_here, low_here))
+    return tuple(column.astype(np.int64) for column in (table.corner_face[corner], point, side, low, high))
+
+
+def portions(
+    table: CornerTable, corner: np.ndarray, crossed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Take outlines of faces apart into portions, see ``Division``.
+
+    Parameters
+    ----------
+    table : CornerTable
+    corner : (k,) int64
+        Corners from which the outlines go to the next ones.
+    crossed : (e,) bool
+        Edges that have a point, which divides them in two portions.
+
+    Returns
+    -------
+    corner : (o,) int64
+        That each portion lies behind; in the given order, the portions behind one corner next to each other.
+    beyond : (o,) bool
+        Whether it is the second behind its corner, and begins at the point of the edge.
+    point, side : (o,) int64
+        See ``Division``.
+    """
+    row, beyond = expanded(np.zeros(len(corner), np.int64), 1 + crossed[table.corner_edge[corner]])
+    corner, beyond = corner[row], beyond > 0
+    vertex, edge = (each[corner].astype(np.int64) for each in (table.corner_vertex, table.corner_edge))
+    half = crossed[edge] & (beyond == (table.edges[edge, 0] == vertex))
+    return corner, beyond, np.where(beyond, len(table.vertices) + edge, vertex), 2 * edge + half
 
 
 def _decided(band: Band, face: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
