@@ -124,7 +124,7 @@ def make_a_game_asset(picture) -> None:
     hulls = [hull for hull in bpy.data.objects if hull.name.startswith("UCX_")]
     colors = [part.color[:] for part in spot.data.reeb_parts.parts]
     for index, hull in enumerate(hulls):
-        _painted(hull, colors[index % len(colors)], sharp=True)
+        _painted(hull, colors[index % len(colors)], srgb=True)
     picture.render_parts([(hull, None) for hull in hulls], IMAGES / "walk_hulls.png", size=SIZE, view=view)
     picture.render_parts([(_checkered(spot), None)], IMAGES / "walk_squares.png", size=SIZE, view=view)
 
@@ -154,14 +154,14 @@ def _graph(obj):
     return bpy.data.collections[f"Reeb Graph {obj.name}"]
 
 
-def _painted(obj, color, sharp: bool = False) -> None:
-    """Give an object a color attribute of one color (as Blender stores it, sRGB for hulls, linear for pieces)."""
+def _painted(obj, color, srgb: bool = False) -> None:
+    """Give an object a color attribute of one color; Blender stores linear ones."""
     import numpy as np
 
     mesh = obj.data
     layer = mesh.color_attributes.new("Shown", "FLOAT_COLOR", "CORNER")
     values = np.ones((len(mesh.loops), 4), np.float32)
-    values[:, :3] = np.power(color, 2.2) if sharp else color
+    values[:, :3] = np.power(color, 2.2) if srgb else color
     layer.data.foreach_set("color", values.ravel())
     mesh.color_attributes.active_color_name = layer.name
 

@@ -191,9 +191,7 @@ def read_list(path: Path) -> list[str]:
     """
     try:
         lines = [os.fsdecode(line.strip()) for line in plain_text(path.read_bytes()).splitlines()]
-    except OSError as error:
+    except (OSError, UnicodeDecodeError) as error:
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path,
-                                   reason=error.strerror or error)) from error
-    except UnicodeDecodeError as error:
-        raise SourceError(Sentence("{path} could not be read: {reason}", path=path, reason=error)) from error
+                                   reason=getattr(error, "strerror", None) or error)) from error
     return [line for line in lines if line and not line.startswith("#")]
