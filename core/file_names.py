@@ -51,7 +51,7 @@ def kind_of(path: str | Path) -> int:
 
 
 def file_name(text: str, default: str) -> str:
-    """A text without what a file system might not like, with room for a suffix. default : str, where nothing is left."""
+    """A text without what a file system might not like, with room for a suffix; ``default`` where nothing is left."""
     plain = re.sub(r"[^\w .()+-]", "_", unicodedata.normalize("NFC", text))
     plain = plain.encode()[:200].decode(errors="ignore").strip(" .") or default
     return f"_{plain}" if DEVICES.match(plain) else plain

@@ -201,16 +201,6 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return points, without_folds(points, triangles, sizes), polygon
 
 
-def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and their polygons of an .obj."""
-    return parse_obj(path.read_bytes())
-
-
-def _read_off(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and their polygons of an .off."""
-    return parse_off(path.read_bytes())
-
-
 def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a .ply."""
     from plyfile import PlyHeaderParseError
@@ -219,11 +209,6 @@ def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return read_ply(path)
     except PlyHeaderParseError:  # trimesh knows more types of numbers
         return _read_by_trimesh(path)
-
-
-def _read_stl(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and their polygons of an .stl."""
-    return parse_stl(path.read_bytes())
 
 
 def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -250,10 +235,19 @@ def _read_dae(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return _read_by_trimesh(path)
 
 
+#: What reads vertices, triangles and their polygons of a file.
+_Reader = Callable[[Path], tuple[np.ndarray, np.ndarray, np.ndarray]]
+
+
+def _by_bytes(parse: Callable[[bytes], tuple[np.ndarray, np.ndarray, np.ndarray]]) -> _Reader:
+    """What reads files by the function that parses their bytes."""
+    return lambda path: parse(path.read_bytes())
+
+
 #: What reads files of a kind; trimesh all others.
-_READERS: dict[str, Callable[[Path], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
-    ARRAYS: _read_arrays, ".dae": _read_dae, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj,
-    ".off": _read_off, ".ply": _read_ply, ".stl": _read_stl}
+_READERS: dict[str, _Reader] = {
+    ARRAYS: _read_arrays, ".dae": _read_dae, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _by_bytes(parse_obj),
+    ".off": _by_bytes(parse_off), ".ply": _read_ply, ".stl": _by_bytes(parse_stl)}
 
 
 def _plain_ply(data: bytes) -> bytes:

@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
-import checkout  # noqa: E402
+import checkout
 
 
 def main() -> int:

@@ -195,7 +195,8 @@ def part_descriptors(
     columns = {
         "log_share": np.log(size) * 2,
         "has_twin": ((parts.twin >= 0) & (parts.twin != arange(parts.count))).astype(float),
-        "n_leaves": np.log1p(_in_parts(parts, parts.decomposition.graph.node_kind == MAXIMUM)),
+        "n_leaves": np.log1p(np.bincount(parts.node_part[parts.decomposition.graph.node_kind == MAXIMUM],
+                                         minlength=parts.count)),
         "n_arcs": np.log1p(np.bincount(parts.arc_part, minlength=parts.count)),
         "hops": np.log1p(_hops(parts, surface.area)),
         **_neighborhood(surface, parts), **_shape(surface),
@@ -207,11 +208,6 @@ def part_descriptors(
         columns |= {f"field_{quantile}": field[:, place], f"log_radius_{quantile}": radius[:, place]}
     columns |= {"depth_50": depth[:, 0], "depth_90": depth[:, 1], "depth_100": depth[:, 2]}
     return np.column_stack([columns[name] for name in NAMES])
-
-
-def _in_parts(parts: Parts, nodes: np.ndarray) -> np.ndarray:
-    """How many of some nodes of the graph lie in each part, (count,). nodes : (k,) bool."""
-    return np.bincount(parts.node_part[nodes], minlength=parts.count)
 
 
 def _hops(parts: Parts, area: np.ndarray) -> np.ndarray:

@@ -153,7 +153,7 @@ def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) 
     inner, outer = _border(decomposition, mask, allowed)
     if not len(outer):
         return None
-    return int(outer[_weakest(decomposition, inner, outer)])
+    return int(outer[decomposition.hierarchy.merge_of(inner, outer).argmin()])
 
 
 def shrinkage(
@@ -287,8 +287,3 @@ def _border(
     across = pairs[mask[pairs].sum(axis=1) == 1]
     inner, outer = np.where(mask[across[:, :1]], across, across[:, ::-1]).T
     return inner[allowed[outer]], outer[allowed[outer]]
-
-
-def _weakest(decomposition: Decomposition, a: np.ndarray, b: np.ndarray) -> int:
-    """Index of the pair of candidates, (a[i], b[i]), that merges first."""
-    return int(decomposition.hierarchy.merge_of(a, b).argmin())
