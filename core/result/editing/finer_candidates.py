@@ -80,9 +80,10 @@ def split_around(
     moved = number > 0
     place = pieces_cut_off(decomposition, moved, graph)
     place[moved] = place.max(initial=0) + 1 + np.unique(number[moved], return_inverse=True)[1]
+    sides, touching = _sides_of(table), graph.with_contacts(decomposition.contacts)
     # Two numbers differ in a bit: a cut for each bit, ten for a thousand numbers, parts all of them.
     for bit in range(int(place.max(initial=0)).bit_length()):
-        decomposition = split_candidates(decomposition, (place >> bit) & 1 == 1, graph, table)
+        decomposition = _split(decomposition, (place >> bit) & 1 == 1, touching, table, sides)
     return decomposition
 
 
@@ -154,6 +155,18 @@ def split_candidates(
         vertices, nodes and center points in these halves belong to them. The given decomposition if no candidate
         has to be cut.
     """
+    return _split(decomposition, faces, graph.with_contacts(decomposition.contacts), table, _sides_of(table))
+
+
+def _sides_of(table: CornerTable) -> FaceSides:
+    """The sides of all faces, each by its corner."""
+    return FaceSides(table.corner_face, table.corner_edge, table.edge_length(arange(len(table.edges))))
+
+
+def _split(
+    decomposition: Decomposition, faces: np.ndarray, touching: FaceGraph, table: CornerTable, sides: FaceSides
+) -> Decomposition:
+    """What ``split_candidates`` does. touching : the graph with the contacts. sides : of all faces."""
     old = decomposition.candidates
     size = np.bincount(old, minlength=decomposition.n_candidates)
     inside = np.bincount(old, faces, decomposition.n_candidates)
@@ -164,10 +177,9 @@ def split_candidates(
     half[cut] = decomposition.n_candidates + arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    sides = FaceSides(table.corner_face, table.corner_edge, table.edge_length(arange(len(table.edges))))
-    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, sides)
+    pairs, length = boundaries(touching, candidates, sides)
     members, at_junction = junctions(candidates, sides)
-    area = np.bincount(candidates, graph.area, count)
+    area = np.bincount(candidates, touching.area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy
     merges = np.concatenate([np.stack([cut, half[cut]], axis=1), hierarchy.merges])
@@ -175,7 +187,7 @@ def split_candidates(
     nodes, points = _graph_halves(decomposition, faces, cut, half, table)
     return replace(
         decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
-        vertex_candidates=_vertex_halves(decomposition, candidates, graph.area, table),
+        vertex_candidates=_vertex_halves(decomposition, candidates, touching.area, table),
         candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience),
         node_candidate=nodes, point_candidate=points, junctions=members, junction_length=at_junction)
 

@@ -61,6 +61,11 @@ class MirroredChange:
         """All faces that touch: the graph with the contacts."""
         return self.graph.with_contacts(self.contacts)
 
+    @cached_property
+    def regions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Connected region of one part that each face is in before the change, and after it, (p,) int64 twice."""
+        return self.graph.regions(self.before)[1], self.graph.regions(self.asked)[1]
+
 
 def cleaned(change: MirroredChange) -> np.ndarray:
     """Have the mirror image of a change consist of as few regions as the change itself, and leave as few.
@@ -94,7 +99,8 @@ def without_crumbs(change: MirroredChange) -> np.ndarray:
     small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
     concerned = np.isin(both, np.concatenate([change.asked[extra], both[extra]]))
     left = np.bincount(region, both != change.before)[region] == 0
-    return np.where(small & concerned & left, connect(graph, both), both)
+    crumb = small & concerned & left
+    return np.where(crumb, connect(graph, both), both) if crumb.any() else both
 
 
 def gathered(change: MirroredChange) -> np.ndarray:
@@ -108,19 +114,22 @@ def gathered(change: MirroredChange) -> np.ndarray:
     """
     area, extra = change.graph.area, change.extra
     # Crumbs of the image first: what lies around one may be a single region without it.
-    once = _without_strays(change, image_only=True)
-    result = _without_strays(replace(change, both=once), image_only=False)
+    once = _without_strays(change, change.both, image_only=True)
+    result = _without_strays(change, once, image_only=False)
     lost = area[extra & (result != change.both)].sum()
     return change.asked if lost > 0.5 * area[extra].sum() else result
 
 
-def _without_strays(change: MirroredChange, image_only: bool) -> np.ndarray:
-    """One round of ``gathered``. image_only : only what the image alone consists of goes to what is around it."""
-    graph, before, both, extra = change.graph, change.before, change.both, change.extra
+def _without_strays(change: MirroredChange, both: np.ndarray, image_only: bool) -> np.ndarray:
+    """One round of ``gathered``: the part of each face, (p,), from ``both``, (p,), that it has by now.
+
+    image_only : only what the image alone consists of goes to what is around it.
+    """
+    graph, before, extra = change.graph, change.before, both != change.asked
     if not extra.any():
         return both
     region = graph.regions(both)[1]
-    stray = _strays(change, region)
+    stray = _strays(change, extra, region)
     if image_only:
         stray[region[~extra]] = False
     number, area = np.zeros(len(stray), np.int64), np.bincount(region, graph.area)
@@ -128,6 +137,8 @@ def _without_strays(change: MirroredChange, image_only: bool) -> np.ndarray:
     # Of each part, where strays go back to: the largest, of those that stay if there are some.
     main = last_of_each(number, ~stray, area, count=int(number.max()) + 1)[number]
     stray &= main != arange(len(stray))
+    if not stray.any():
+        return both
     # Nothing goes to another part than those that its own part is cut into.
     touching = change.touching
     first, second = touching.pairs.T
@@ -137,13 +148,13 @@ def _without_strays(change: MirroredChange, image_only: bool) -> np.ndarray:
     return number[connect(around, np.where(stray, main, arange(len(stray)))[region])]
 
 
-def _strays(change: MirroredChange, region: np.ndarray) -> np.ndarray:
+def _strays(change: MirroredChange, extra: np.ndarray, region: np.ndarray) -> np.ndarray:
     """Regions after the image of a change that are neither the best image of a region before it nor what it left.
 
-    region : (p,) int64, of each face after the image. Returns (r,) bool.
+    extra : (p,) bool, faces that the image changed. region : (p,) int64, of each face after it. Returns (r,) bool.
     """
-    area, twin, extra = change.graph.area, change.twin, change.extra
-    former, wanted = (change.graph.regions(number)[1] for number in (change.before, change.asked))
+    area, twin = change.graph.area, change.twin
+    former, wanted = change.regions
     stray = np.ones(int(region.max()) + 1, bool)
     # Those that the image left alone were there, or are wanted; of those that it cut, most of what is left stays.
     whole = np.bincount(wanted)[wanted] == np.bincount(region)[region]

@@ -83,5 +83,7 @@ def halved_between_images(graph: FaceGraph, without: np.ndarray, after: np.ndarr
     """
     along = (without != after) & (twin >= 0)
     between = along & along[twin] & (after == after[twin]) & (side * own_side[after] < 0)
+    if not between.any():
+        return after
     halved = np.where(between, image[after], after)
     return after if graph.regions(halved)[0] > graph.regions(after)[0] else halved

@@ -67,6 +67,11 @@ class Band:
         return self.table.edge_labels(self.labels)
 
     @cached_property
+    def face_vectors(self) -> np.ndarray:
+        """(f, 3) float64, vector area of each face, see ``CornerTable.face_vectors``."""
+        return self.table.face_vectors()
+
+    @cached_property
     def convex(self) -> np.ndarray:
         """Whether each face has no corner that is turned in, (f,) bool."""
         if (self.n_corners == 3).all():
@@ -75,7 +80,7 @@ class Band:
         ahead = points[following] - points
         behind = np.empty_like(ahead)
         behind[following] = ahead
-        turn = (cross(behind, ahead) * self.table.face_vectors()[self.table.corner_face]).sum(axis=1)
+        turn = (cross(behind, ahead) * self.face_vectors[self.table.corner_face]).sum(axis=1)
         inward = np.zeros(len(self.faces), bool)
         inward[self.table.corner_face[turn <= 0]] = True
         return ~inward

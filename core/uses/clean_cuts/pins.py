@@ -71,7 +71,7 @@ class Pins:
 def _sharp(band: Band) -> np.ndarray:
     """Whether the two faces at each edge turn by the angle of a crease, (e,) bool."""
     table = band.table
-    normal = unit(table.face_vectors())
+    normal = unit(band.face_vectors)
     pairs, edge = table.face_pairs()
     two = table.n_edge_faces[edge] == 2
     a, b = pairs[two].T

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
@@ -44,7 +45,7 @@ class Shares:
         place = np.minimum(np.searchsorted(self.key, key), len(self.key) - 1)
         return np.where(self.key[place] == key, self.value[place], 0.0)
 
-    @property
+    @cached_property
     def top(self) -> np.ndarray:
         """(v,) int64, the label with the largest share at each vertex."""
         vertex, label = np.divmod(self.key, self.n_labels)
