@@ -65,7 +65,7 @@ class Parts:
         """(count,) float64, area of each part, in squared units of the vertices."""
         return np.bincount(self.candidate_part, self.decomposition.candidate_area)
 
-    @property
+    @cached_property
     def share(self) -> np.ndarray:
         """(count,) float64, area of each part as a share of the whole, 0..1."""
         return self.area / self.area.sum()
