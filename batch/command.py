@@ -22,7 +22,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, redirect_stdout, suppress
+from contextlib import contextmanager, redirect_stdout, suppress
 from typing import Any, TextIO
 
 import bpy
@@ -88,32 +88,22 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
         files.protect(scene_files())
         reports, done = [], []
         computations = Computations(objects, parameters, options.hints.upper())
-        with _in_a_window():
-            with interrupts.allowed():
-                for obj in objects:
-                    # What is written to a mesh is written to all objects that share it.
-                    twin = next((other for other in done if other.data == obj.data), None)
-                    try:
-                        with in_its_scene(obj):
-                            leave_edit_mode(bpy.context)
-                            report = decompose_object(obj, computations, options, twin)
-                        reports.append(report | sources.get(obj, {}))
-                        done.append(obj)
-                    except (SceneError, ReebError, MemoryError) as error:
-                        problems.append(problem(obj.name, error))
-            if not done:
-                raise SceneError("Nothing was decomposed.")
-            with interrupts.allowed():
-                return write_files(options, files, done, reports, problems)
-
-
-def _in_a_window() -> AbstractContextManager:
-    """A context with a window, without which Blender exports nothing.
-
-    None is at hand while the command runs on the scene that Blender's own command line names, though there is one.
-    """
-    window = bpy.context.window or next(iter(bpy.context.window_manager.windows), None)
-    return bpy.context.temp_override(window=window)
+        with interrupts.allowed():
+            for obj in objects:
+                # What is written to a mesh is written to all objects that share it.
+                twin = next((other for other in done if other.data == obj.data), None)
+                try:
+                    with in_its_scene(obj):
+                        leave_edit_mode(bpy.context)
+                        report = decompose_object(obj, computations, options, twin)
+                    reports.append(report | sources.get(obj, {}))
+                    done.append(obj)
+                except (SceneError, ReebError, MemoryError) as error:
+                    problems.append(problem(obj.name, error))
+        if not done:
+            raise SceneError("Nothing was decomposed.")
+        with interrupts.allowed():
+            return write_files(options, files, done, reports, problems)
 
 
 def _claim(options: argparse.Namespace, files: RunFiles) -> None:

@@ -68,7 +68,7 @@ def render_parts(objects: list[tuple[bpy.types.Object, bpy.types.Collection | No
     path : str or Path
         Where to write; the folder must exist.
     size : (2,) int
-        Width and height in pixels, multiples of 4.
+        Width and height in pixels.
     samples : int
         Light paths per pixel, before denoising.
     view : (3,) float

@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
+from ..scene.modes import set_mode
 from ..scene.pieces import origins, piece_checks, piece_objects, piece_repairs
 from ..scene.reporting import ReportingOperator, listed
 from ..scene.showing.selection import select_faces
@@ -68,7 +69,7 @@ class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
         select_faces(piece.data, mask)
         transaction.keep(context.tool_settings, "mesh_select_mode")
         context.tool_settings.mesh_select_mode = (False, False, True)
-        bpy.ops.object.mode_set(mode="EDIT")
+        set_mode(piece, "EDIT")
         self.report({"INFO"}, rpt_("{n} {n:face|faces} selected").format(n=Count(int(mask.sum()))))
 
 

@@ -10,7 +10,7 @@ from ..scene.changes import edits, moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_objects
 from ..scene.graph.graph_finding import part_of, source_of_arcs
-from ..scene.modes import object_mode
+from ..scene.modes import is_object_mode, object_mode
 from ..scene.reporting import ReportingOperator, chosen_with_parts
 from ..scene.result import part_names
 from ..scene.result.part_list import check_parts, choose, chosen_numbers
@@ -78,7 +78,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
         source = source_of_arcs(targets.active_object(context))
-        if source is None or context.mode != "OBJECT":
+        if source is None or not is_object_mode(context):
             raise SceneError(rpt_("Select the arcs of a graph"))
         check_parts(source)
 

@@ -68,5 +68,5 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         super().run(context)
-        if not self.remove and modes.lacks_colors(context.object):
+        if not self.remove and modes.lacks_colors(targets.active_object(context)):
             shading.show_colors(context)  # those of materials

@@ -41,8 +41,7 @@ class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
         mask = np.isin(stored.face_numbers, numbers)
         if not mask.any():
             raise SceneError(rpt_("There is no part with the number {number}.").format(number=self.number))
-        if context.mode == "OBJECT":
-            selection.select_faces(obj.data, mask, self.action)
+        selection.select_faces(obj.data, mask, self.action)
         # In Object Mode nothing is seen of it.
         count = int(selection.selected_faces(obj.data).sum())
         return rpt_("{n} {n:face|faces} selected").format(n=Count(count))

@@ -9,7 +9,7 @@ from ..core.sentence import Count
 from ..core.steps import Steps, stretched
 from ..scene import targets
 from ..scene.errors import SceneError
-from ..scene.modes import object_mode
+from ..scene.modes import is_object_mode, object_mode, set_mode
 from ..scene.pieces import origins, piece_objects, separation
 from ..scene.reporting import ReportingOperator, chosen_with_parts, listed, with_current_parts
 from ..scene.result.part_list import check_parts, wanted_numbers
@@ -69,8 +69,8 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def _hide(self, context: bpy.types.Context, originals: list[bpy.types.Object]) -> None:
         """Hide the originals, which only Object Mode allows."""
-        if context.mode != "OBJECT":
-            bpy.ops.object.mode_set(mode="OBJECT")
+        if not is_object_mode(context):
+            set_mode(context.view_layer.objects.active, "OBJECT")
         for obj in originals:
             piece_objects.hide_original(context, obj)
         shading.show_pieces(context)
@@ -79,7 +79,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
               of_active: list[bpy.types.Object]) -> None:
         """Show the pieces in the local view, too; leave them selected, unless the user is at work in another mode."""
         _show_in_local_view(context, pieces)
-        if context.mode == "OBJECT":
+        if is_object_mode(context):
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
     def _report(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
@@ -165,7 +165,7 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
         if not piece_objects.has_pieces(obj):
             raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(
                 name=obj.name))
-        if context.mode != "OBJECT":
+        if not is_object_mode(context):
             raise SceneError(rpt_("Go to Object Mode first"))
 
     def run(self, context: bpy.types.Context) -> None:

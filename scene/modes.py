@@ -26,14 +26,20 @@ def check_mode(obj: bpy.types.Object) -> None:
         raise SceneError(words)
 
 
+def is_object_mode(context: bpy.types.Context) -> bool:
+    """Whether the active object is in Object Mode; ``context.mode`` does not tell where there is no window."""
+    active = context.view_layer.objects.active
+    return active is None or active.mode == "OBJECT"
+
+
 @contextmanager
 def object_mode(context: bpy.types.Context) -> Iterator[None]:
     """Write in Object Mode whatever the mode was; the mode is as before afterwards."""
-    active = context.view_layer.objects.active
-    mode = active.mode if active else "OBJECT"
-    if mode == "OBJECT":
+    if is_object_mode(context):
         yield
         return
+    active = context.view_layer.objects.active
+    mode = active.mode
     together = edited_together(context.view_layer) if mode == "EDIT" else []
     set_mode(active, "OBJECT")
     try:

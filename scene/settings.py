@@ -14,6 +14,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import LABELS, PALETTES
+from . import targets
 from .changes import reactions
 from .changes.settled import Settled, reaction
 from .errors import translated
@@ -313,12 +314,12 @@ def _use_preset(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> No
 
 @reaction
 def _repaint(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    reactions.use_palette(context.object, self.palette, context)
+    reactions.use_palette(targets.active_object(context), self.palette, context)
 
 
 @reaction
 def _show_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    reactions.show_graph(context.object, self.graph, context)
+    reactions.show_graph(targets.active_object(context), self.graph, context)
 
 
 @reaction
@@ -345,7 +346,7 @@ class FormerArguments:
 
 @reaction
 def _redraw_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    graph_objects.restyle(context.object, self)
+    graph_objects.restyle(targets.active_object(context), self)
 
 
 class ReebPartsSettings(

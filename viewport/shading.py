@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import handlers, modes, redraw, transaction
+from ..scene import handlers, modes, redraw, targets, transaction
 from ..scene.pieces import origins
 
 
@@ -31,7 +31,7 @@ def show_colors(context: bpy.types.Context) -> None:
     """Color the solid view by the active color attribute, without lines from each node to its parent."""
     space = _solid_view(context)
     if space is not None:
-        _show_colors(space, context.object)
+        _show_colors(space, targets.active_object(context))
 
 
 def turn_to_colors(context: bpy.types.Context) -> None:
@@ -40,7 +40,7 @@ def turn_to_colors(context: bpy.types.Context) -> None:
     for view in [space] if space is not None and space.type == "VIEW_3D" else redraw.view_spaces():
         transaction.keep(view.shading, "type")
         view.shading.type = "SOLID"
-        _show_colors(view, context.object)
+        _show_colors(view, targets.active_object(context))
 
 
 def _show_colors(space: bpy.types.SpaceView3D, obj: bpy.types.Object | None) -> None:

@@ -17,6 +17,7 @@ from ...core.steps import Steps
 from .. import bridge, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_visibility
+from ..modes import is_object_mode
 from ..moving import rigid_bodies
 from ..ours import made_objects
 from ..ours.surroundings import Surroundings
@@ -87,7 +88,7 @@ def active_piece(context: bpy.types.Context) -> bpy.types.Object:
     piece = targets.active_object(context)
     if piece is None or NUMBER not in piece:
         raise SceneError(rpt_("The active object is not a part that was separated from another one"))
-    if context.mode != "OBJECT":
+    if not is_object_mode(context):
         raise SceneError(rpt_("Go to Object Mode first"))
     return piece
 

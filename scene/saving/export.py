@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 
 import bpy
@@ -224,6 +224,7 @@ def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Pa
             stage: bpy.types.Scene) -> None:
     """Write pieces in the place of an object as a file, by way of a scene with nothing in it."""
     layer, world = stage.view_layers[0], placing.world_matrix(obj)
+    there = {"scene": stage, "view_layer": layer}
     with _named(pieces):
         for piece in pieces.values():
             stage.collection.objects.link(piece)
@@ -235,10 +236,20 @@ def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Pa
             layer.objects.active = piece
         try:
             # On one line, so that nothing can be raised before the override ends, see modes.call_with.
-            with bpy.context.temp_override(scene=stage, view_layer=layer): EXPORTERS[kind](str(path))  # noqa: E701
+            with _in_a_window(), bpy.context.temp_override(**there): EXPORTERS[kind](str(path))  # noqa: E701
         finally:
             for piece in pieces.values():
                 stage.collection.objects.unlink(piece)
+
+
+def _in_a_window() -> AbstractContextManager:
+    """A context with a window, without which Blender exports nothing.
+
+    None is at hand in a timer, and while a command runs on the scene that Blender's own command line names.
+    """
+    if bpy.context.window is not None:
+        return nullcontext()
+    return bpy.context.temp_override(window=next(iter(bpy.context.window_manager.windows), None))
 
 
 @contextmanager

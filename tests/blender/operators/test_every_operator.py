@@ -413,3 +413,14 @@ def test_a_command_does_what_its_name_says_whatever_another_button_of_it_did_bef
     Only in a window does Blender keep such choices for the next call.
     """
     assert getattr(bpy.ops.reeb_parts, name).get_rna_type().properties[choice].is_skip_save
+
+
+@pytest.mark.parametrize("name", ["export", "materials", "select_faults", "separate", "show_colors"])
+def test_scripts_that_run_in_a_timer_have_no_window(package, name, make, tree, tmp_path):
+    """There, Blender's context has no active object, and its own operators refuse."""
+    arguments = set_up(package, name, "SCULPT" if name == "separate" else "OBJECT", make, tree, tmp_path)
+    with bpy.context.temp_override(window=None):
+        assert getattr(bpy.ops.reeb_parts, name)(**arguments) == {"FINISHED"}
+    if name == "separate":
+        tree_object = bpy.data.objects["Tree"]
+        assert (tree_object.mode, tree_object.hide_get()) == ("OBJECT", True)

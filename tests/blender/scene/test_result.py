@@ -507,3 +507,14 @@ def test_a_mesh_that_no_object_has_keeps_its_parts(obj):
     obj.data = mesh
     mesh.reeb_parts.n_parts = 2
     assert len(mesh.reeb_parts.parts) == 2
+
+
+def test_settings_of_the_scene_reach_the_active_object_where_there_is_no_window(result):
+    """As in a timer of a script, in which there was a traceback, and the setting went back."""
+    settings = bpy.context.scene.reeb_parts
+    with bpy.context.temp_override(window=None):
+        settings.palette = "Pastel"
+        settings.graph = False
+        settings.line_thickness = 0.5
+    assert (result.palette, settings.graph, settings.line_thickness) == ("Pastel", False, 0.5)
+    assert bpy.data.objects["Reeb arcs"].data.bevel_depth == 0.5
