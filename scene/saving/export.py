@@ -100,7 +100,7 @@ def _stage() -> Iterator[bpy.types.Scene]:
     """
     scene = bpy.context.scene
     stage = bpy.data.scenes.new(scene.name)
-    with removed(bpy.data.scenes, stage):
+    with _in_a_window(), removed(bpy.data.scenes, stage):
         for name in ("frame_start", "frame_end", "frame_step"):
             setattr(stage, name, getattr(scene, name))
         stage.frame_set(scene.frame_current, subframe=scene.frame_subframe)
@@ -224,7 +224,6 @@ def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Pa
             stage: bpy.types.Scene) -> None:
     """Write pieces in the place of an object as a file, by way of a scene with nothing in it."""
     layer, world = stage.view_layers[0], placing.world_matrix(obj)
-    there = {"scene": stage, "view_layer": layer}
     with _named(pieces):
         for piece in pieces.values():
             stage.collection.objects.link(piece)
@@ -236,7 +235,7 @@ def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Pa
             layer.objects.active = piece
         try:
             # On one line, so that nothing can be raised before the override ends, see modes.call_with.
-            with _in_a_window(), bpy.context.temp_override(**there): EXPORTERS[kind](str(path))  # noqa: E701
+            with bpy.context.temp_override(scene=stage, view_layer=layer): EXPORTERS[kind](str(path))  # noqa: E701
         finally:
             for piece in pieces.values():
                 stage.collection.objects.unlink(piece)
