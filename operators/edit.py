@@ -4,6 +4,7 @@
 from collections.abc import Callable
 
 import bpy
+import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
@@ -28,10 +29,12 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
             raise SceneError(rpt_("Mark the parts to merge in the list, two or more."))
         active = part_list.active_number(obj.data)
         into = active if active in numbers else numbers[0]
-        pins.write(context, obj.data, stored, edits.merged(obj.data, stored, numbers, into))
+        after = edits.merged(obj.data, stored, numbers, into)
+        together = np.unique(stored.shown[after.shown == into])  # with mirror images that were not marked
+        pins.write(context, obj.data, stored, after)
         part_list.mark(obj.data, "NONE")
         return rpt_("{n} {n:part is|parts are} {name} now").format(
-            n=Count(len(numbers)), name=part_names.part_name(obj.data, into))
+            n=Count(len(together)), name=part_names.part_name(obj.data, into))
 
 
 class ChosenPartsOperator(PartOperator):

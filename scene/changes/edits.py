@@ -40,10 +40,25 @@ def merged(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) 
     from ...core.result.editing.changes import components_of
 
     pins.check_unlocked(mesh, numbers)
-    mask = np.isin(stored.shown, numbers)
+    images = _images_across(mesh, stored, numbers)
+    mask = np.isin(stored.shown, [*numbers, *images])
     if components_of(stored.decomposition, mask).max() > 0:
         raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
-    return pins.pinned(mesh, stored, np.where(mask, into, stored.shown), [into])
+    pin = pins.with_pins if images else pins.pinned
+    return pin(mesh, stored, np.where(mask, into, stored.shown), [into])
+
+
+def _images_across(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> list[int]:
+    """The mirror images of parts to merge, if one of these lies across the plane and no image is locked.
+
+    Such a part cannot be in one of a single side and in its mirror image as well: all become one.
+    """
+    from ...core.result.editing.mirrored import twin_numbers
+
+    twin = twin_numbers(stored.shown_parts()) if bpy.context.scene.reeb_parts.symmetry else {}
+    images = [twin.get(number, number) for number in numbers]
+    across = any(twin.get(number) == number for number in numbers)
+    return images if across and not set(images) & set(pins.locked_others(mesh, 0)) else []
 
 
 def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> Stored:

@@ -175,11 +175,11 @@ def lock(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     number, locked = part.number, part.locked
 
     def pin(stored: Stored) -> None:
-        stays = locked or not part.only_locked
+        stays = locked or (part.pinned and not part.only_locked)
         pinned = np.where(stored.shown == number, number if stays else 0, stored.pinned)
         transaction.keep_result(mesh)
         with property_updates.quiet():
-            part.only_locked = locked and not part.pinned
+            part.only_locked = locked and (part.only_locked or not part.pinned)
             store.save_numbers(mesh, replace(stored, pinned=pinned))
         show(mesh.reeb_parts, context)
 

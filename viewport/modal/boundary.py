@@ -56,6 +56,9 @@ class Boundary:
         self.center = bridge.face_centers(obj)
         length = np.linalg.norm(self.center[pairs[:, 0]] - self.center[pairs[:, 1]], axis=1)
         size = float(np.linalg.norm(np.ptp(self.center, axis=0)))
+        if not size:  # a scale of 0, at a frame before the object appears
+            raise SceneError(rpt_("All {n} faces have zero area. Check the scale of the object.").format(
+                n=len(self.center)))
         self.width = max(RING * size, FACES * float(length.mean()) if len(length) else 0.0)
         inside = self.numbers == number
         beyond = self.numbers[pairs]

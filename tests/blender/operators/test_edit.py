@@ -188,6 +188,15 @@ def test_unlocked_a_part_that_was_changed_by_hand_stays_so_until_it_is_released(
     assert not any(p.pinned for p in result.parts)
 
 
+@pytest.mark.parametrize("locked", [False, True])
+def test_a_lock_that_is_set_to_what_it_was_pins_nothing(obj, result, locked):
+    """As Backspace over a lock that is open does, which sets it back to that."""
+    for _ in range(2):
+        result.parts[0].locked = locked
+    result.parts[0].locked = False
+    assert not result.parts[0].pinned
+
+
 def test_a_locked_part_is_kept_by_another_run(obj, result):
     number = result.parts[-1].number
     mask = numbers(obj.data) == number
@@ -450,6 +459,15 @@ def boundary(package, obj, number):
     """As the tools read it."""
     stored = importlib.import_module(f"{package}.scene.store").load(obj.data)
     return importlib.import_module(f"{package}.viewport.modal.boundary").Boundary(obj, stored, number)
+
+
+def test_of_an_object_that_is_scaled_to_nothing_no_boundary_can_be_moved(obj, result, package):
+    """A ring of no width was divided by."""
+    obj.scale = (0.0, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    choose(result, 1)
+    with pytest.raises(RuntimeError, match="Check the scale"):
+        bpy.ops.reeb_parts.grow(rings=2)
 
 
 def test_a_boundary_stops_at_a_locked_part(obj, result):

@@ -47,10 +47,9 @@ def pinned(mesh):
 
 def choose(mesh, *parts):
     numbers = [entry.number for entry in parts]
-    for index, entry in enumerate(mesh.reeb_parts.parts):
+    mesh.reeb_parts.active = [entry.number for entry in mesh.reeb_parts.parts].index(numbers[0])
+    for entry in mesh.reeb_parts.parts:  # after that, as a click in the list takes marks away
         entry.selected = entry.number in numbers
-        if entry.number == numbers[0]:
-            mesh.reeb_parts.active = index
 
 
 def test_images_have_one_number_and_a_side(mesh):
@@ -173,6 +172,20 @@ def test_both_sides_of_a_posed_figure_change(make, edit):
     after = face_numbers(mesh)
     assert (after != before).any()
     assert len(set(zip(after.tolist(), after[twin].tolist(), strict=True))) == len(set(after.tolist()))
+
+
+@pytest.mark.parametrize("locked", [False, True])
+def test_a_part_across_the_plane_is_merged_with_both_sides(mesh, locked):
+    """It went to the side that was marked, and left the other one alone."""
+    left, middle = part(mesh, ".L"), max(mesh.reeb_parts.parts, key=lambda entry: entry.share)
+    right = part_named(mesh, left.name[:-1] + "R")
+    right.locked = locked
+    number, before = left.number, face_numbers(mesh)
+    wanted = np.isin(before, [number, middle.number] if locked else [number, middle.number, right.number])
+    choose(mesh, left, middle)
+    assert bpy.ops.reeb_parts.merge() == {"FINISHED"}
+    assert np.array_equal(face_numbers(mesh) == number, wanted)
+    assert paired(mesh) != locked
 
 
 def test_two_images_marked_are_split_once(mesh):
