@@ -8,17 +8,23 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
+from ...core.arrays.int64 import arange
+from ...core.arrays.nearest import nearest, search_tree
+from ...core.arrays.vectors import middles_of_each
 from ...core.mesh.labels import majority
 from ...core.parameters import Parameters
 from ...core.result.decomposition import Decomposition
 from ...core.result.numbering import inherited
-from .. import bridge, store
+from .. import bridge, property_updates, store
 from ..bridge import Shape
 from ..errors import SceneError
 from ..outputs import face_attribute
 from ..reading import mesh_arrays
 from ..result import part_names
 from ..store import Stored
+from ..transaction import keep_result
+
+BESIDE = 0.05  # share of the model's size within which the middle of a part stays where it was, whatever the faces are
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,13 +59,50 @@ def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -
         return same.showing(same.parts(parameters.detail, parameters.n_parts))
     previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
     former = _former(obj.data, old, parameters)
-    if former is not None and len(former.number) == decomposition.n_faces and former.number.any():
+    if former is not None and not (len(former.number) == decomposition.n_faces and former.number.any()):
+        previous = _at_places(obj.data, decomposition)
+        _forget_all_but(obj.data, previous)
+    elif former is not None:
         previous, pinned = former.of_candidates(decomposition)
         if former.pinned.any():
             decomposition = _cut_around_pins(obj, shape, decomposition, former, pinned[decomposition.candidates])
             previous, pinned = former.of_candidates(decomposition)
     numbers = inherited(decomposition, parameters.detail, parameters.n_parts, previous, pinned)
     return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
+
+
+def _at_places(mesh: bpy.types.Mesh, decomposition: Decomposition) -> np.ndarray:
+    """The number of the part that was where the part of each candidate is now, (c,) int64; 0 for none.
+
+    For a mesh whose faces do not tell, as after QuadriFlow: of two parts, each has to be the nearest to the other.
+    """
+    parameters = decomposition.parameters
+    parts = decomposition.parts(parameters.detail, parameters.n_parts)
+    listed = [part for part in mesh.reeb_parts.parts  # which may be damaged
+              if 0 < part.number <= part_names.MAX_NUMBER and np.isfinite(part.middle).all()]
+    if not listed:
+        return np.zeros(decomposition.n_candidates, np.int64)
+    center, area = mesh_arrays.face_middles(mesh)
+    now = middles_of_each(parts.labels, center, area + 1e-300, parts.count)[1]
+    before = np.array([part.middle[:] for part in listed])
+    distance, place = nearest(search_tree(before), now)
+    near = distance < BESIDE * np.linalg.norm(np.ptp(center, axis=0))
+    mutual = nearest(search_tree(now), before)[1][place] == arange(parts.count)
+    numbers = np.array([part.number for part in listed])[place]
+    return np.where(near & mutual, numbers, 0)[parts.candidate_part]
+
+
+def _forget_all_but(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
+    """Forget names, colors and locks of all but some parts: their numbers will be those of others."""
+    result = mesh.reeb_parts
+    keep_result(mesh)
+    for index in reversed(range(len(result.names))):
+        if result.names[index].number not in numbers:
+            result.names.remove(index)
+    with property_updates.quiet():
+        for part in result.parts:
+            if part.number not in numbers:
+                part.locked = part.only_locked = False
 
 
 def _is_same(one: Decomposition, other: Decomposition) -> bool:

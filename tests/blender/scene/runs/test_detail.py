@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from mathutils import Matrix, Vector
 from snapshot import activate
 
 
@@ -132,6 +133,28 @@ def test_what_was_given_to_parts_outlasts_an_edit(obj, result, package):
     same = before.keys() & after.keys()
     assert len(same) >= 5
     assert {number: after[number] for number in same} == {number: before[number] for number in same}
+
+
+def test_faces_that_do_not_tell_leave_names_in_their_places(obj, result):
+    """After QuadriFlow names, colors and locks were those of parts that had their numbers by chance."""
+    place = {part.name: Vector(part.middle) for part in result.parts}
+    gone = max(result.parts, key=lambda part: part.middle[0])
+    gone.locked = True
+    center = Vector(gone.middle)
+    for part in result.parts:
+        part.name = f"My {part.name}"
+    mesh, matrix = obj.data, Matrix.Rotation(0.01, 4, "X")
+    vertices = [matrix @ vertex.co for vertex in mesh.vertices]
+    faces = [polygon.vertices[:] for polygon in mesh.polygons if (polygon.center - center).length > 0.5]
+    mesh.clear_geometry()
+    mesh.from_pydata(vertices, [], faces[::-1])
+    assert "reeb_part" not in mesh.attributes
+    bpy.ops.reeb_parts.decompose()
+    named = {part.name: Vector(part.middle) for part in result.parts if part.name.startswith("My ")}
+    assert len(named) == len(place) - 1
+    for name, middle in named.items():
+        assert (place[name.removeprefix("My ")] - middle).length < 0.2
+    assert not any(part.locked for part in result.parts)
 
 
 @pytest.mark.parametrize("change", [{"detail": 0.9}, {"n_parts": 3}])
