@@ -25,13 +25,19 @@ from . import pins
 _BESIDE = 0.5  # share of a candidate's faces, more on one side than on the other, from which on it is of that side
 
 
-def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
-    """Parts without those that change with their mirror images, which come before them."""
+def _twins(stored: Stored) -> dict[int, int]:
+    """The mirror image of each part that has one, by number, itself for one that lies across the plane.
+
+    None without Symmetry.
+    """
     from ...core.result.editing.mirrored import twin_numbers
 
-    if not bpy.context.scene.reeb_parts.symmetry:
-        return numbers
-    twin = twin_numbers(stored.shown_parts())
+    return twin_numbers(stored.shown_parts()) if bpy.context.scene.reeb_parts.symmetry else {}
+
+
+def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
+    """Parts without those that change with their mirror images, which come before them."""
+    twin = _twins(stored)
     return [number for place, number in enumerate(numbers) if twin.get(number) not in numbers[:place]]
 
 
@@ -53,9 +59,7 @@ def _images_across(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> 
 
     Such a part cannot be in one of a single side and in its mirror image as well: all become one.
     """
-    from ...core.result.editing.mirrored import twin_numbers
-
-    twin = twin_numbers(stored.shown_parts()) if bpy.context.scene.reeb_parts.symmetry else {}
+    twin = _twins(stored)
     images = [twin.get(number, number) for number in numbers]
     across = any(twin.get(number) == number for number in numbers)
     return images if across and not set(images) & set(pins.locked_others(mesh, 0)) else []
@@ -64,26 +68,25 @@ def _images_across(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> 
 def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> Stored:
     """The result with parts merged into the neighbors beyond their least salient cuts, as all of them are now.
 
-    Of parts that are each other's nearest the largest takes the others. Where the user has given the neighbor no name,
-    but has named the largest part of all that become one, that is which stays. numbers : of parts.
+    Of parts that are each other's nearest the largest takes the others; one that lies across the plane of symmetry
+    takes neighbors on both sides. Where the user has given the neighbor no name, but has named the largest part of all
+    that become one, that is which stays. numbers : of parts.
     """
-    from ...core.result.editing.mirrored import twin_numbers
-
     numbered = stored.shown_parts()
     cuts = numbered.numbers[numbered.parts.cuts]
     into = {number: _neighbor(numbered.parts, cuts, number) for number in numbers}
     if alone := [number for number, other in into.items() if not other]:
         raise SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, alone[0])))
-    if bpy.context.scene.reeb_parts.symmetry:
-        twin = twin_numbers(numbered)
-        into |= {twin[part]: twin[other] for part, other in into.items() if part in twin and other in twin}
+    twin = _twins(stored)
+    into |= {twin[part]: twin[other] for part, other in into.items() if part in twin and other in twin}
     size = dict(zip(numbered.numbers.tolist(), numbered.parts.share.tolist(), strict=True))
     known, named = sorted({*into, *into.values()}), part_names.kept_names(mesh)
     ends = np.searchsorted(known, np.array(list(into.items())))
     _, group = components(len(known), *ends.T)
     for index in range(int(group.max()) + 1):
         members = [number for number, place in zip(known, group.tolist(), strict=True) if place == index]
-        ends_here = [number for number in members if number not in into] or members
+        across = [number for number in members if twin.get(number) == number]
+        ends_here = [number for number in across or members if number not in into] or across or members
         end, largest = (max(some, key=lambda number: size[number]) for some in (ends_here, members))
         stored = merged(mesh, stored, members, largest if largest in named and end not in named else end)
     return stored
@@ -199,11 +202,9 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
     All 1 if the part is no mirror image of another. A part and its image cannot both take a candidate across the plane,
     and would change sides if they took from beyond it.
     """
-    from ...core.result.editing.mirrored import twin_numbers
-
     found, shown = stored.decomposition, stored.shown
-    twin = twin_numbers(stored.shown_parts()).get(number, number)
-    if twin == number or not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
+    twin = _twins(stored).get(number, number)
+    if twin == number or not len(found.face_side):
         return np.ones(len(shown))
     count = np.bincount(found.candidates, minlength=len(shown))
     beside = np.bincount(found.candidates, found.face_side, len(shown))

@@ -188,6 +188,19 @@ def test_a_part_across_the_plane_is_merged_with_both_sides(mesh, locked):
     assert paired(mesh) != locked
 
 
+def test_a_part_across_the_plane_takes_neighbors_on_both_sides():
+    """It went to one of two mirror images, and was called as this: the head of spot, whose weakest cut is an ear's."""
+    bpy.ops.wm.obj_import(filepath=str(SPOT))
+    mesh = bpy.context.object.data
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.suggest_names()
+    number = {entry.name: entry.number for entry in mesh.reeb_parts.parts}
+    wanted = np.isin(face_numbers(mesh), [number[name] for name in ("head", "ear.L", "ear.R")])
+    choose(mesh, part_named(mesh, "head"))
+    assert bpy.ops.reeb_parts.merge_neighbour() == {"FINISHED"}
+    assert np.array_equal(face_numbers(mesh) == number["head"], wanted)
+
+
 def test_two_images_marked_are_split_once(mesh):
     count = len(mesh.reeb_parts.parts)
     left = part(mesh, ".L")
