@@ -26,9 +26,11 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
     cursor = "PAINT_BRUSH"
     uses_graph = False
 
-    stroke: bpy.props.CollectionProperty(type=ReebDab, options={"SKIP_SAVE"})
+    # Not in the panel of what was done last: each dab has the radius that it was painted with.
+    stroke: bpy.props.CollectionProperty(type=ReebDab, options={"SKIP_SAVE", "HIDDEN"})
     radius: bpy.props.FloatProperty(
-        name="Radius", min=0.0, subtype="DISTANCE", description="Of the brush, in the units of the mesh",
+        name="Radius", min=0.0, subtype="DISTANCE", options={"HIDDEN"},
+        description="Of the brush, in the units of the mesh",
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:

@@ -226,6 +226,12 @@ def test_the_boundary_of_a_locked_part_does_not_slide(obj, result, outwards):
     assert (numbers(obj.data) == before).all()
 
 
+def test_the_brush_is_not_offered_after_its_strokes():
+    """In the panel of what was done last, a radius changed nothing: each dab has its own."""
+    found = bpy.ops.reeb_parts.paint.get_rna_type().properties
+    assert [prop.identifier for prop in found if not (prop.is_hidden or prop.identifier == "rna_type")] == []
+
+
 def test_nothing_is_painted_into_a_locked_part(obj, result):
     choose(result, 1)
     other = next(p for p in obj.data.polygons if numbers(obj.data)[p.index] != 1)
