@@ -42,27 +42,27 @@ def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
 
 
 def merged(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> Stored:
-    """The result with one part of several; raises SceneError if they do not touch."""
+    """The result with one part of several; raises SceneError if they do not touch.
+
+    One that lies across the plane cannot be in a part of one side and in its mirror image as well: it is merged with
+    the images of the others, too, unless one of these is locked.
+    """
+    pins.check_unlocked(mesh, numbers)
+    if not _touch(stored, numbers):
+        raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
+    pin, twin = pins.pinned, _twins(stored)
+    both = [*numbers, *(twin.get(number, number) for number in numbers)]
+    across = any(twin.get(number) == number for number in numbers)
+    if across and _touch(stored, both) and not set(both) & set(pins.locked_others(mesh, 0)):
+        pin, numbers = pins.with_pins, both
+    return pin(mesh, stored, np.where(np.isin(stored.shown, numbers), into, stored.shown), [into])
+
+
+def _touch(stored: Stored, numbers: list[int]) -> bool:
+    """Whether parts hang together."""
     from ...core.result.editing.changes import components_of
 
-    pins.check_unlocked(mesh, numbers)
-    images = _images_across(mesh, stored, numbers)
-    mask = np.isin(stored.shown, [*numbers, *images])
-    if components_of(stored.decomposition, mask).max() > 0:
-        raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
-    pin = pins.with_pins if images else pins.pinned
-    return pin(mesh, stored, np.where(mask, into, stored.shown), [into])
-
-
-def _images_across(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> list[int]:
-    """The mirror images of parts to merge, if one of these lies across the plane and no image is locked.
-
-    Such a part cannot be in one of a single side and in its mirror image as well: all become one.
-    """
-    twin = _twins(stored)
-    images = [twin.get(number, number) for number in numbers]
-    across = any(twin.get(number) == number for number in numbers)
-    return images if across and not set(images) & set(pins.locked_others(mesh, 0)) else []
+    return components_of(stored.decomposition, np.isin(stored.shown, numbers)).max() <= 0
 
 
 def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> Stored:
