@@ -9,7 +9,6 @@ import bpy
 import numpy as np
 
 from ...core.arrays.int64 import arange
-from ...core.arrays.nearest import nearest, search_tree
 from ...core.arrays.vectors import middles_of_each
 from ...core.mesh.labels import majority
 from ...core.parameters import Parameters
@@ -76,6 +75,8 @@ def _at_places(mesh: bpy.types.Mesh, decomposition: Decomposition) -> np.ndarray
 
     For a mesh whose faces do not tell, as after QuadriFlow: of two parts, each has to be the nearest to the other.
     """
+    from ...core.arrays.nearest import nearest, search_tree  # here, since Blender's panels come up without SciPy
+
     parameters = decomposition.parameters
     parts = decomposition.parts(parameters.detail, parameters.n_parts)
     listed = [part for part in mesh.reeb_parts.parts  # which may be damaged
