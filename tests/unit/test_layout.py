@@ -92,6 +92,20 @@ def test_folders_import_downwards_only():
     assert violations(lambda path, module: module[0] in {path.parts[0], *MAY_IMPORT[path.parts[0]]}) == []
 
 
+def test_blender_comes_up_without_scipy():
+    """What operators and panels import before any function of theirs is called."""
+    waiting, seen = [path for path in FILES if path.parts[0] in {"operators", "ui"}], {}
+    while waiting:
+        path = waiting.pop()
+        at_once = [node for node in FILES[path].body if isinstance(node, ast.Import | ast.ImportFrom)]
+        seen[path] = imported(path, ast.Module(at_once, []))
+        places = {Path(*module[:n]) for module in seen[path] for n in range(1, len(module) + 1)}
+        files = {file for place in places for file in (place.with_suffix(".py"), place / "__init__.py")}
+        waiting += (files & FILES.keys()) - seen.keys()
+    assert Path("scene/runs/succession.py") in seen
+    assert [str(path) for path, modules in seen.items() if "scipy" in {module[0] for module in modules}] == []
+
+
 def test_stages_of_core_import_earlier_stages_only():
     def allowed(path, module):
         if path.parts[0] != "core":
