@@ -61,6 +61,8 @@ def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -
     if former is not None and not (len(former.number) == decomposition.n_faces and former.number.any()):
         previous = _at_places(obj.data, decomposition)
         _forget_all_but(obj.data, previous)
+        locked = [part.number for part in obj.data.reeb_parts.parts if part.locked]
+        pinned = np.where(np.isin(previous, locked), previous, 0)
     elif former is not None:
         previous, pinned = former.of_candidates(decomposition)
         if former.pinned.any():

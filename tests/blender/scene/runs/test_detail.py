@@ -139,8 +139,9 @@ def test_faces_that_do_not_tell_leave_names_in_their_places(obj, result):
     """After QuadriFlow names, colors and locks were those of parts that had their numbers by chance."""
     place = {part.name: Vector(part.middle) for part in result.parts}
     gone = max(result.parts, key=lambda part: part.middle[0])
-    gone.locked = True
-    center = Vector(gone.middle)
+    stays = min(result.parts, key=lambda part: part.middle[0])
+    gone.locked = stays.locked = True
+    center, locked = Vector(gone.middle), stays.number
     for part in result.parts:
         part.name = f"My {part.name}"
     mesh, matrix = obj.data, Matrix.Rotation(0.01, 4, "X")
@@ -154,7 +155,8 @@ def test_faces_that_do_not_tell_leave_names_in_their_places(obj, result):
     assert len(named) == len(place) - 1
     for name, middle in named.items():
         assert (place[name.removeprefix("My ")] - middle).length < 0.2
-    assert not any(part.locked for part in result.parts)
+    assert [part.number for part in result.parts if part.locked] == [locked]
+    assert [part.number for part in result.parts if part.pinned] == [locked]
 
 
 @pytest.mark.parametrize("change", [{"detail": 0.9}, {"n_parts": 3}])
