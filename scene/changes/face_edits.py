@@ -34,9 +34,12 @@ def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: S
     before, names = stored.face_numbers, part_names.all_names(obj.data)
     pins.check_unlocked(obj.data, {number, *before[faces].tolist()})
     wanted = assign_faces(context, obj, stored, np.where(faces, number, before))
+    after = store.load(obj.data).face_numbers[faces]
     told = rpt_("{n} {n:face is|faces are} {name} now").format(
-        n=Count(int(faces.sum())), name=part_names.part_name(obj.data, number))
-    return "; ".join(filter(None, (told, told_of_rest(obj.data, before, wanted), told_of_ended(obj.data, names))))
+        n=Count(int((after == number).sum())), name=part_names.part_name(obj.data, number))
+    apart = told_of_apart(int((after != number).sum()))
+    rest, ended = told_of_rest(obj.data, before, wanted), told_of_ended(obj.data, names)
+    return "; ".join(filter(None, (told, apart, rest, ended)))
 
 
 def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> int:
@@ -139,6 +142,14 @@ def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
     origin[: len(stored.shown)] = arange(len(stored.shown))
     origin[decomposition.candidates] = stored.decomposition.candidates
     return Stored(decomposition, stored.previous_number[origin], stored.pinned[origin], stored.shown[origin])
+
+
+def told_of_apart(n_faces: int) -> str:
+    """How many of the faces that were given to a part do not touch it, in a sentence; "" for 0."""
+    if not n_faces:
+        return ""
+    return rpt_("{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}").format(
+        n=Count(n_faces))
 
 
 def told_of_rest(mesh: bpy.types.Mesh, before: np.ndarray, wanted: np.ndarray) -> str:

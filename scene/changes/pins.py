@@ -98,9 +98,10 @@ def mirrored_too(
 
 
 def renumber_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
-    """Give all but the largest piece of a part numbers of their own, unless they were apart from it already.
+    """Give what a change cuts off from a part, and what it adds that does not touch the part, numbers of their own.
 
-    Parts of pieces that touch nothing are in several; of each of these, too, the largest piece that is left stays.
+    The largest piece that is left of the part stays, or that of a new part; of a part that was in several pieces, as
+    those that touch nothing are, the largest that is left of each.
 
     Parameters
     ----------
@@ -124,9 +125,9 @@ def renumber_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, n
     there = np.flatnonzero(former >= 0)
     fragment, place = np.unique(np.stack([former, piece])[:, there], axis=1, return_inverse=True)
     order = np.lexsort((np.bincount(place.ravel(), area[there], fragment.shape[1]), fragment[0]))
-    stays = {0, *fragment[1, order[ends_run(fragment[0, order])]].tolist()}
+    stays = set(fragment[1, order[ends_run(fragment[0, order])]].tolist())
     made = set()
-    for index in sorted({*range(piece.max() + 1)} - stays):
+    for index in sorted({*range(piece.max() + 1)} - (stays or {0})):
         new = free_number(mesh, stored, numbers.tolist())
         made.add(new)
         numbers[piece == index] = new

@@ -89,22 +89,17 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
     wanted = face_edits.assign_faces(context, obj, brush.model.stored, brush.numbers(), beside_taken=_SPECK)
     after = store.load(obj.data).face_numbers
     joined = int((after[moved] == brush.number).sum())
-    told = []
+    apart = int(moved.sum()) - joined
     if joined:
-        told.append(rpt_("{n} {n:face|faces} of {givers} {n:is|are} {name} now").format(
-            n=Count(joined), givers=givers, name=name))
-        apart = rpt_("{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}")
+        told = [rpt_("{n} {n:face|faces} of {givers} {n:is|are} {name} now").format(
+            n=Count(joined), givers=givers, name=name), face_edits.told_of_apart(apart)]
     else:
-        apart = rpt_("{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart")
-    if joined < moved.sum():
-        told.append(apart.format(n=Count(int(moved.sum()) - joined), givers=givers, name=name))
-    if rest := face_edits.told_of_rest(obj.data, before, wanted):
-        told.append(rest)
-    if ended := face_edits.told_of_ended(obj.data, names):
-        told.append(ended)
+        told = [rpt_("{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart").format(
+            n=Count(apart), givers=givers, name=name)]
+    told += [face_edits.told_of_rest(obj.data, before, wanted), face_edits.told_of_ended(obj.data, names)]
     if brush.n_locked:
         told.append(rpt_("{n} {n:is locked and stays|are locked and stay}").format(n=Count(brush.n_locked)))
-    return "; ".join(told)
+    return "; ".join(filter(None, told))
 
 
 def _why_nothing(brush: Brush) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays.indexing import last_of_each
 from ...arrays.int64 import arange
-from ...arrays.pairs import both_ways
+from ...arrays.pairs import both_ways, distinct_pairs
 from ...arrays.vectors import row_products
 from ...cuts.hierarchy import Dendrogram, Hierarchy
 from ...graph.critical import SADDLE
@@ -24,37 +24,35 @@ from .contour_cut import contours
 SCRAP = 0.03  # share of a part below which a candidate of it is a scrap beside a pinned part
 
 
-def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceGraph) -> np.ndarray:
-    """What a change leaves of each candidate in several pieces, as of a limb with a ring around its middle.
+def ranked_pieces(decomposition: Decomposition, number: np.ndarray, graph: FaceGraph) -> np.ndarray:
+    """Rank the pieces that a change makes of each candidate, as of a limb with a ring around its middle.
 
     Parameters
     ----------
     decomposition : Decomposition
         p faces.
-    moved : (p,) bool
-        Faces that change their part.
+    number : (p,) int64
+        0 for faces that stay in their candidate, 1 or more for those that get to a part.
     graph : FaceGraph
         Of the p faces.
 
     Returns
     -------
-    piece : (p,) int64
-        0 for faces that move and for the largest piece that is left of a candidate, or of each of its pieces if it was
-        in several before; 1 and more for the other pieces.
+    rank : (p,) int64
+        Of the pieces in which a candidate's faces of one number are: 0 for the faces of the largest, 1 for the next ...
+        Each piece of a candidate that was in several before has ranks of its own.
     """
     candidates = decomposition.candidates
-    partly = np.bincount(candidates, moved, decomposition.n_candidates) > 0
-    left = partly[candidates] & ~moved
+    partly = (np.bincount(candidates, number, decomposition.n_candidates) > 0)[candidates]
     touching = graph.with_contacts(decomposition.contacts)
-    _, piece = touching.regions(np.where(left, candidates, -1))
-    _, whole = touching.regions(np.where(partly[candidates], candidates, -1))
-    # Of what is left of each whole, the largest piece has rank 0.
-    number, face = np.unique(piece[left], return_index=True)
-    of = whole[left][face]
-    order = np.lexsort((-np.bincount(piece, graph.area)[number], of))
+    _, piece = touching.regions(np.where(partly, candidates * (number.max(initial=0) + 1) + number, -1))
+    _, whole = touching.regions(np.where(partly, candidates, -1))
+    pieces, face = np.unique(piece[partly], return_index=True)
+    of = distinct_pairs(whole[partly][face], number[partly][face])[1]
+    order = np.lexsort((-np.bincount(piece, graph.area)[pieces], of))
     rank = np.zeros(int(piece.max()) + 1, np.int64)
-    rank[number[order]] = arange(len(order)) - np.searchsorted(of[order], of[order])
-    return np.where(left, rank[piece], 0)
+    rank[pieces[order]] = arange(len(order)) - np.searchsorted(of[order], of[order])
+    return np.where(partly, rank[piece], 0)
 
 
 def split_around(
@@ -67,21 +65,19 @@ def split_around(
     decomposition : Decomposition
         p faces and c candidates.
     number : (p,) int64
-        Faces of one number, 1 or more, shall be separable from all others. 0 for faces that stay as they are; what is
-        left of a candidate in several pieces becomes several candidates.
+        Faces of one number, 1 or more, shall be separable from all others. 0 for faces that stay as they are.
     graph, table
         As of ``split_candidates``.
 
     Returns
     -------
     finer : Decomposition
-        As of ``split_candidates``; no candidate has faces of two numbers.
+        As of ``split_candidates``; no candidate has faces of two numbers. What is of one number in several pieces of a
+        candidate becomes several candidates.
     """
-    moved = number > 0
-    place = pieces_cut_off(decomposition, moved, graph)
-    place[moved] = place.max(initial=0) + 1 + np.unique(number[moved], return_inverse=True)[1]
+    _, place = distinct_pairs(number, ranked_pieces(decomposition, number, graph))
     sides, touching = _sides_of(table), graph.with_contacts(decomposition.contacts)
-    # Two numbers differ in a bit: a cut for each bit, ten for a thousand numbers, parts all of them.
+    # Two places differ in a bit: a cut for each bit, ten for a thousand places, parts all of them.
     for bit in range(int(place.max(initial=0)).bit_length()):
         decomposition = _split(decomposition, (place >> bit) & 1 == 1, touching, table, sides)
     return decomposition

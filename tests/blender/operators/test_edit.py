@@ -362,6 +362,38 @@ def test_a_ring_within_a_candidate_leaves_two_parts(obj):
     check(obj)
 
 
+@pytest.mark.parametrize("way", ["new", "assigned", "painted"])
+def test_faces_that_do_not_touch_are_parts_of_their_own_also_within_a_candidate(obj, capfd, way):
+    """They were one part in several places, where one candidate had them, or where the part given to was smaller."""
+    bpy.context.scene.reeb_parts.symmetry = False
+    bpy.ops.reeb_parts.decompose(method="berretti")  # of few candidates
+    result = obj.data.reeb_parts
+    result.detail = 1.0  # each is a part
+    center = np.array([p.center[:] for p in obj.data.polygons])
+    from_tip = np.linalg.norm(center - shapes.TREE_TIPS[3], axis=1)
+    branch = np.flatnonzero(numbers(obj.data) == numbers(obj.data)[from_tip.argmin()])
+    first, *others = np.array_split(branch[np.argsort(from_tip[branch])], 8)[1::3]
+    places = [first[:1], *others]  # one face, and larger ones farther down
+    obj.data.polygons.foreach_set("select", np.isin(np.arange(len(center)), first[:1]))
+    if way != "new":
+        bpy.ops.reeb_parts.assign(new=True)
+    obj.data.polygons.foreach_set("select", np.isin(np.arange(len(center)), np.concatenate(places)))
+    capfd.readouterr()
+    if way == "painted":
+        faces = np.concatenate(others)
+        bpy.ops.reeb_parts.paint(
+            stroke=[{"name": "", "location": center[face], "radius": 1e-4} for face in faces])
+    else:
+        bpy.ops.reeb_parts.assign(new=way == "new")
+    found = [np.unique(numbers(obj.data)[faces]).tolist() for faces in places]
+    assert len({number for each in found for number in each}) == sum(map(len, found)) >= len(places)
+    if way != "painted":
+        joined = int((numbers(obj.data)[np.concatenate(places)] == result.parts[result.active].number).sum())
+        apart = len(np.concatenate(places)) - joined
+        assert f"; {apart} do not touch it and are parts of their own" in capfd.readouterr().out
+    check(obj)
+
+
 def test_a_stroke_takes_specks_along_and_leaves_what_lies_beyond(obj):
     """A ring painted around a branch cuts its tip off, which stays; a speck that the stroke leaves out goes along."""
     bpy.context.scene.reeb_parts.symmetry = False

@@ -15,7 +15,7 @@ from core.graph.reeb import ReebGraph
 from core.mesh.corners import CornerTable
 from core.mesh.face_graph import FaceGraph
 from core.result.decomposition import Decomposition
-from core.result.editing.finer_candidates import pieces_cut_off, split_around, split_candidates
+from core.result.editing.finer_candidates import ranked_pieces, split_around, split_candidates
 
 
 @pytest.fixture(scope="module")
@@ -86,29 +86,26 @@ def test_the_graph_follows_a_branch_that_is_cut_half_way(result, tree):
 def test_pieces_cut_off_by_hand():
     """A row of faces 0 1 2 3 4 5 6 of one candidate, 7 and 8 of another that is in two places; 2 and 5 move, and 7."""
     pairs = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7]])
-    graph = FaceGraph(9, pairs, np.ones(7), np.array([3.0, 1, 1, 1, 1, 1, 5, 1, 1]))
+    graph = FaceGraph(9, pairs, np.ones(7), np.array([3.0, 1, 1, 1, 1, 2, 5, 1, 1]))
     found = SimpleNamespace(candidates=np.array([0, 0, 0, 0, 0, 0, 0, 1, 1]), n_candidates=2,
                             contacts=np.empty((0, 2), np.int64))
-    piece = pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph)
-    assert piece.tolist() == [1, 1, 0, 2, 2, 0, 0, 0, 0]
-    nothing = pieces_cut_off(found, np.zeros(9, bool), graph)
-    assert not nothing.any()
-    found.contacts = np.array([[1, 3]])  # across a gap
-    assert pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph).tolist() == [0, 0, 0, 0, 0, 0, 1, 0, 0]
+    number = np.array([0, 0, 1, 0, 0, 1, 0, 2, 0])
+    assert ranked_pieces(found, number, graph).tolist() == [1, 1, 1, 2, 2, 0, 0, 0, 0]
+    assert not ranked_pieces(found, np.zeros(9, np.int64), graph).any()
+    found.contacts = np.array([[1, 3], [2, 5]])  # across a gap
+    assert ranked_pieces(found, number, graph).tolist() == [0, 0, 0, 0, 0, 0, 1, 0, 0]
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_any_numbers_of_faces_can_be_parts_and_change_no_level_otherwise(result, tree, seed):
-    """Of five numbers at random, each candidate has one, and of what is left of a candidate each piece is one."""
+    """Of five numbers at random, each candidate has one, and all of its faces hang together."""
     graph, table = tree
     number = np.random.default_rng(seed).integers(0, 6, graph.n_faces)
     finer = split_around(result, number, graph, table)
     of_candidate = np.zeros(finer.n_candidates, np.int64)
     of_candidate[finer.candidates] = number
     np.testing.assert_array_equal(of_candidate[finer.candidates], number)
-    left = np.where(number == 0, finer.candidates, -1)
-    region = graph.regions(left)[1]
-    assert len(np.unique(region[number == 0])) == len(np.unique(left)) - 1
+    assert graph.regions(finer.candidates)[0] == finer.n_candidates
     for n_parts in (1, 4, result.n_candidates):
         np.testing.assert_array_equal(finer.parts(n_parts=n_parts).labels, result.parts(n_parts=n_parts).labels)
 
