@@ -101,7 +101,7 @@ def draw() -> None:
     layer = context.view_layer
     seen = set()
     for collection in bpy.data.collections:
-        source = collection.get(graph_finding.SOURCE)
+        source = graph_finding.source_of(collection)
         if source is None or source.type != "MESH" or not store.has_result(source.data):
             continue
         items = [item for item in collection.objects if item.name in layer.objects and item.visible_get()]
@@ -117,7 +117,7 @@ def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: lis
     gpu.state.blend_set("ALPHA")
     if any(item.get(ROLE) == graph_finding.ARCS for item in items):
         _draw_arcs(source, items)
-    nodes = [item for item in items if item.get(ROLE) == graph_finding.NODE and not graph_objects.is_folded(item)]
+    nodes = [item for item in items if graph_finding.is_node(item) and not graph_objects.is_folded(item)]
     if nodes:
         _draw_nodes(context, source, nodes)
     gpu.state.blend_set("NONE")

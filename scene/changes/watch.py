@@ -92,7 +92,7 @@ def _opened(*_: object) -> None:
     graph_visibility.forget()
     seen_points.forget()
     for collection in bpy.data.collections:
-        source = collection.get(graph_finding.SOURCE)
+        source = graph_finding.source_of(collection)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
             graph_follow.soon(source)
 

@@ -17,6 +17,18 @@ SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 NODE, ARCS = "node", "arcs"  # roles: of the empties, and of the curve
 _TYPES = {NODE: "EMPTY", ARCS: "CURVE"}
+_ON_NODE = {"node": int, "part": int, "kind": str}  # custom properties, which the user may have deleted or changed
+
+
+def source_of(collection: bpy.types.Collection) -> bpy.types.Object | None:
+    """The object whose graph a collection is for, or None."""
+    source = collection.get(SOURCE)
+    return source if isinstance(source, bpy.types.Object) else None
+
+
+def is_node(item: bpy.types.Object) -> bool:
+    """Whether an object is a node of a graph, and has on it what nodes have."""
+    return item.get(ROLE) == NODE and all(isinstance(item.get(name), kind) for name, kind in _ON_NODE.items())
 
 
 def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
@@ -26,7 +38,7 @@ def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
 
 def left_behind() -> Iterator[bpy.types.Object]:
     """Objects that have a graph and are in no scene any more."""
-    sources = (collection.get(SOURCE) for collection in bpy.data.collections if collection.library is None)
+    sources = (source_of(collection) for collection in bpy.data.collections if collection.library is None)
     return (source for source in sources if source is not None and not source.users_scene)
 
 
@@ -63,7 +75,7 @@ def originals(items: Iterable[bpy.types.Object]) -> Iterator[bpy.types.Object]:
     known = set()
     for item in items:
         kind = str(item[ROLE]), str(item.get("node"))  # whatever a file has there
-        if item.type == _TYPES.get(kind[0]) and kind not in known:
+        if item.type == _TYPES.get(kind[0]) and kind not in known and (kind[0] == ARCS or is_node(item)):
             known.add(kind)
             yield item
 
@@ -83,7 +95,7 @@ def exists(obj: bpy.types.Object) -> bool:
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
     """The decomposed object and the part's number that an object of a graph stands for, or None."""
-    if item is None or item.get(ROLE) != NODE or not store.has_parts(item.parent):
+    if item is None or not is_node(item) or not store.has_parts(item.parent):
         return None
     return item.parent, item["part"]
 

@@ -185,7 +185,7 @@ def put_back(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, scale: f
     for node in nodes:
         _unmove(node)
         node.location = points[node["node"]]
-        _set_size(node, scale * (node[_SIZE] if is_folded(node) else node.empty_display_size))
+        _set_size(node, scale * _size(node))
     if item is not None:
         _unmove(item)
         _draw_curve(item, graph, back, _drawn(item, graph))
@@ -193,7 +193,7 @@ def put_back(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, scale: f
 
 def _are_of(nodes: Iterable[bpy.types.Object], count: int) -> bool:
     """Whether all of some empties stand for nodes of a graph that has so many, be it another graph than theirs."""
-    return all(0 <= node.get("node", -1) < count for node in nodes)
+    return all(0 <= node["node"] < count for node in nodes)
 
 
 def _unmove(item: bpy.types.Object) -> None:
@@ -254,7 +254,7 @@ def _fold(node: bpy.types.Object, folded: bool) -> None:
         node[_SIZE] = node.empty_display_size
         node.empty_display_size = _NOTHING
     else:
-        node.empty_display_size = node[_SIZE]
+        node.empty_display_size = _size(node)
     node[FOLDED] = node.hide_select = folded
 
 
@@ -330,6 +330,12 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
         else:
             transaction.keep(item.data, "bevel_depth")
             item.data.bevel_depth = style.line_thickness
+
+
+def _size(node: bpy.types.Object) -> float:
+    """How large a node is when it is not folded."""
+    size = node.get(_SIZE) if is_folded(node) else None
+    return size if isinstance(size, float) else node.empty_display_size
 
 
 def _set_size(node: bpy.types.Object, size: float) -> None:

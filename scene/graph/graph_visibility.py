@@ -112,7 +112,7 @@ def _local_views(context: bpy.types.Context) -> Iterator[tuple[bpy.types.ViewLay
 def _graphs() -> Iterator[tuple[bpy.types.Collection, bpy.types.Object]]:
     """The graphs that can be written, each with its model."""
     return ((graph, source) for graph in bpy.data.collections
-            if graph.library is None and (source := graph.get(graph_finding.SOURCE)) is not None)
+            if graph.library is None and (source := graph_finding.source_of(graph)) is not None)
 
 
 def _is_seen(context: bpy.types.Context, source: bpy.types.Object) -> bool:

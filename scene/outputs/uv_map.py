@@ -41,7 +41,7 @@ _FEWEST, _MOST, _FACES = 10, 100, 100_000
 
 def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
     """Our UV map as we wrote it, or None: one that was changed since, or renamed, is the user's work."""
-    layer = mesh.uv_layers.get(mesh.get(MADE, ""))
+    layer = mesh.uv_layers.get(str(mesh.get(MADE, "")))
     return layer if layer is not None and _digest(layer) == mesh.get(WRITTEN) else None
 
 
@@ -51,11 +51,11 @@ def remove(mesh: bpy.types.Mesh) -> str:
     Returns the name of one that was changed since and stays, or "".
     """
     transaction.keep_mesh(mesh)
-    layer, name = find(mesh), mesh.get(MADE, "")
+    layer, name = find(mesh), str(mesh.get(MADE, ""))
     if layer is not None:
         active = mesh.uv_layers.active.name
         mesh.uv_layers.remove(layer)
-        active = mesh.uv_layers.get(mesh.get(FORMER, "") if active == name else active)
+        active = mesh.uv_layers.get(str(mesh.get(FORMER, "")) if active == name else active)
         if active is not None:
             mesh.uv_layers.active = active
     made_objects.hand_over(mesh, MADE, WRITTEN, FORMER)

@@ -190,7 +190,8 @@ def _source(collection: bpy.types.Collection) -> bpy.types.Object | None:
     obj = collection.get(COLLECTION_OF)
     if isinstance(obj, str):
         obj = bpy.data.objects.get((obj, None))
-    return obj if obj is not None and obj.users_scene and collection_of(obj) == collection else None
+    known = isinstance(obj, bpy.types.Object) and obj.users_scene and collection_of(obj) == collection
+    return obj if known else None
 
 
 def _held() -> list[tuple[bpy.types.Object, bpy.types.Collection]]:

@@ -43,7 +43,7 @@ def weights_were_changed(mesh: bpy.types.Mesh, of_other_vertices: bool) -> bool:
 
     of_other_vertices : the answer if they are and there are more vertices, or fewer, since then Blender has made some.
     """
-    count, _, known = mesh.get(MADE, "").partition(" ")
+    count, _, known = str(mesh.get(MADE, "")).partition(" ")
     if not known or _digest(mesh) == known:  # earlier versions kept nothing
         return False
     return True if count == str(len(mesh.vertices)) else of_other_vertices

@@ -320,3 +320,40 @@ class TestElsewhere:
         bpy.ops.reeb_parts.clear()
         assert not obj.children
         assert "Reeb Graph Tree" not in bpy.data.collections
+
+
+@pytest.mark.parametrize("name", ["node", "part", "kind", "folded", "reeb_parts_size", "reeb_parts_role"])
+@pytest.mark.parametrize("value", [None, "Mine"])
+def test_nodes_may_lose_their_custom_properties(obj, settings, capfd, name, value):
+    """Deleted or changed in the properties of the object, each made sliders fail with a traceback."""
+    result = obj.data.reeb_parts
+    result.detail = 0.0
+    for node in [item for item in bpy.data.objects if item.get("reeb_parts_role") == "node" and name in item]:
+        if value is None:
+            del node[name]
+        else:
+            node[name] = value
+    result.detail = 1.0
+    result.parts[0].name = "Other"
+    settings.node_size = 0.02
+    result.detail = 0.5
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    assert "node" in {item.get("reeb_parts_role") for item in bpy.data.objects}
+    bpy.ops.reeb_parts.clear()
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
+@pytest.mark.parametrize("name", ["reeb_parts_source", "reeb_parts_pieces_of"])
+def test_what_collections_are_for_may_be_anything(obj, settings, capfd, tmp_path, name):
+    """A text where an object is expected made every change of the scene print a traceback."""
+    bpy.ops.reeb_parts.separate()
+    for collection in [each for each in bpy.data.collections if name in each]:
+        collection[name] = 1
+    activate(obj)
+    obj.data.reeb_parts.detail = 0.9
+    bpy.context.view_layer.update()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "file.blend"))
+    activate(bpy.data.objects["Tree"])
+    assert bpy.ops.reeb_parts.clear() == {"FINISHED"}
+    assert "Traceback" not in "".join(capfd.readouterr())
