@@ -135,14 +135,16 @@ class Room:
         deep, least = (wanted.depth, wanted.depth) if wanted.depth else (
             radius * np.array(_DEPTH.get(wanted.kind, _DEEP))).tolist()
         start, end = (low, high) if into else (high, low)
-        free = trial.is_free(bodies, low, high)
-        depth = trial.depth(bodies[into], end, sign, deep + wanted.clearance) - wanted.clearance
-        if wanted.kind.both_sides:
-            depth = np.minimum(depth, trial.depth(bodies[1 - into], start, -sign, deep + wanted.clearance)
-                               - wanted.clearance)
-        else:
-            free &= trial.holds(bodies[1 - into], start, -sign, _FOOT * radius)
-        return np.where(np.isfinite(low) & (depth >= least * (1 - 1e-9)) & free, depth, -1.0)
+        possible = np.isfinite(low) & trial.is_free(bodies, low, high)
+        if not wanted.kind.both_sides:
+            possible &= trial.holds(bodies[1 - into], np.where(possible, start, np.nan), -sign, _FOOT * radius)
+        depth = np.full(len(low), np.inf)
+        for side, height, way in ((into, end, sign), (1 - into, start, -sign))[: 1 + wanted.kind.both_sides]:
+            # Heights that are nan are not tried.
+            found = trial.depth(bodies[side], np.where(possible, height, np.nan), way, deep + wanted.clearance)
+            depth = np.minimum(depth, found - wanted.clearance)
+            possible &= depth >= least * (1 - 1e-9)
+        return np.where(possible, depth, -1.0)
 
     def _made(self, flat: np.ndarray, low: np.ndarray, high: np.ndarray, depth: np.ndarray, radius: float,
               into: int) -> tuple[Joint, ...]:
@@ -181,15 +183,18 @@ class _Trial:
         """How far the disks can go into a piece from some heights before the wall is too thin, (k,) float64."""
         share = arange(1, _LEVELS + 1) / _LEVELS
         levels = height[:, None] + sign * deepest * np.concatenate([[1e-3], share])
-        fine = self._walled(body, levels)
-        fine &= self._inside(body, levels[:, :1])
-        reached = np.cumprod(fine, axis=1).sum(axis=1)
+        fine, reached = self._inside(body, levels[:, :1])[:, 0], np.zeros(len(height), np.int64)
+        for level in levels.T:  # the next one only where this one has a wall
+            fine &= self._walled(body, np.where(fine, level, np.nan)[:, None])[:, 0]
+            reached += fine
         return np.where(reached > 1, deepest * share[np.maximum(reached, 2) - 2], 0.0)
 
     def is_free(self, bodies: tuple[Body, Body], low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Whether the surfaces of both pieces stay clear of the disks from one height to another, (k,) bool."""
         levels = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 3)
-        return (self._walled(bodies[0], levels) & self._walled(bodies[1], levels)).all(axis=1)
+        for body in bodies:
+            levels[~self._walled(body, levels).all(axis=1)] = np.nan
+        return np.isfinite(levels).all(axis=1)
 
     def holds(self, body: Body, start: np.ndarray, sign: float, foot: float) -> np.ndarray:
         """Whether the foot of a peg is in the piece that it belongs to, (k,) bool."""
