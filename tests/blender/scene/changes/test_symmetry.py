@@ -294,6 +294,33 @@ def test_grow_to_the_next_crease_takes_crumbs_along(make):
     assert {entry.number for entry in result.parts} == numbers
 
 
+def in_pieces(mesh):
+    """Numbers of the parts that do not hang together."""
+    numbers, label = face_numbers(mesh), np.arange(len(mesh.polygons))
+    vertices = np.array([polygon.vertices for polygon in mesh.polygons])
+    touching = [np.flatnonzero(np.isin(vertices, corners).sum(axis=1) == 2) for corners in vertices]
+    pairs = np.array([(face, other) for face, others in enumerate(touching) for other in others])
+    first, second = pairs[numbers[pairs[:, 0]] == numbers[pairs[:, 1]]].T
+    for _ in label:
+        before = label.copy()
+        np.minimum.at(label, first, label[second])
+        if np.array_equal(label, before):
+            break
+    return [number for number in np.unique(numbers) if len(set(label[numbers == number])) > 1]
+
+
+@pytest.mark.parametrize("count", [6, 12])
+def test_what_grows_on_both_sides_leaves_no_part_in_pieces(make, count):
+    """A part and its image cut off together what neither does alone: of most parts some faces lay apart."""
+    mesh = make(shapes.torus(), "Ring").data
+    bpy.ops.reeb_parts.decompose(n_parts=count)
+    for place in range(count):
+        choose(mesh, mesh.reeb_parts.parts[min(place, len(mesh.reeb_parts.parts) - 1)])
+        with suppress(RuntimeError):
+            bpy.ops.reeb_parts.grow()
+    assert not in_pieces(mesh)
+
+
 def test_the_report_of_paint_does_not_count_the_mirror_image_as_what_is_left(mesh, capfd):
     """A dab on one of two limbs, into the other: a part of its own on each side, and nothing else."""
     bpy.context.scene.reeb_parts.symmetry = True
