@@ -21,15 +21,15 @@ from core.result.decomposition import Decomposition
 
 def row():
     """Seven faces in a row, four candidates: 0 1 1 2 2 2 3, merged 2-3, then 0-1, then all."""
-    candidates = np.array([0, 1, 1, 2, 2, 2, 3])
+    candidates = np.array([0, 1, 1, 2, 2, 2, 3], np.int64)
     graph = ReebGraph.empty()
     return Decomposition(
-        candidates=candidates, vertex_candidates=np.array([0, 1, 2, 3, -1]),
-        candidate_area=np.array([1.0, 2.0, 6.0, 1.0]), candidate_pairs=np.array([(0, 1), (1, 2), (2, 3)]),
+        candidates=candidates, vertex_candidates=np.array([0, 1, 2, 3, -1], np.int64),
+        candidate_area=np.array([1.0, 2.0, 6.0, 1.0]), candidate_pairs=np.array([(0, 1), (1, 2), (2, 3)], np.int64),
         candidate_pair_length=np.array([0.5, 1.5, 2.5]),
         hierarchy=Hierarchy.of(4, [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9]), field=np.zeros(5), graph=graph,
         node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
-        contacts=np.array([(0, 3)]), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
+        contacts=np.array([(0, 3)], np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
         face_side=np.empty(0, np.int8), parameters=Parameters(), notes=("odd",), seconds={"mesh": 0.1})
 
 

@@ -60,7 +60,7 @@ def test_two_mirrors_make_the_group_of_a_star(count):
 def test_what_the_first_planes_generate_comes_first():
     turn = 1j ** np.arange(4)  # a plus of four arms along the axes
     place = {complex(arm): k for k, arm in enumerate(turn)}
-    across, along, slanted, other = (np.array([place[complex(arm)] for arm in arms])
+    across, along, slanted, other = (np.array([place[complex(arm)] for arm in arms], np.int64)
                                      for arms in (-turn.conj(), turn.conj(), 1j * turn.conj(), -1j * turn.conj()))
     group = SymmetryGroup.generated(np.array([across, along, slanted, other]), 64)
     assert group.image[:4].tolist() == [[0, 1, 2, 3], across.tolist(), along.tolist(), across[along].tolist()]
