@@ -224,7 +224,5 @@ def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) ->
     numbers, also = pins.mirrored_too(mesh, stored, stored.shown, numbers, found.candidate_twin)
     if also:  # it and its image may cut off together what neither does alone
         numbers = with_small_pieces(graph, stored.shown, numbers)
-    changed = {giver, number, *also}
-    for part in sorted(changed & set(numbers.tolist())):
-        changed |= pins.renumber_pieces(mesh, stored, numbers, part)
+    changed = pins.renumber_pieces(mesh, stored, numbers, {giver, number, *also})
     return pins.with_pins(mesh, stored, numbers, changed)

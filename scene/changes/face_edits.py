@@ -105,16 +105,14 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     moved = face_numbers != before
     if not moved.any():
         return face_numbers
-    concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
+    concerned = np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist()
     stored = _finer(stored, split_around(found, np.where(moved, face_numbers, 0), *mesh_tables))
     with property_updates.quiet():
         store.save(obj.data, stored)
     numbers = stored.shown.copy()
     numbers[stored.decomposition.candidates[moved]] = face_numbers[moved]
-    for number in sorted(concerned):
-        if (numbers == number).any():
-            concerned |= pins.renumber_pieces(obj.data, stored, numbers, number)
-    pins.write(context, obj.data, stored, pins.with_pins(obj.data, stored, numbers, concerned))
+    changed = pins.renumber_pieces(obj.data, stored, numbers, concerned)
+    pins.write(context, obj.data, stored, pins.with_pins(obj.data, stored, numbers, changed))
     return face_numbers
 
 

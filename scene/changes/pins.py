@@ -97,10 +97,10 @@ def mirrored_too(
     return (after, []) if set(concerned) & set(locked_others(mesh, 0)) else (both, concerned)
 
 
-def renumber_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
-    """Give what a change cuts off from a part, and what it adds that does not touch the part, numbers of their own.
+def renumber_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, concerned: Iterable[int]) -> set[int]:
+    """Give what a change cuts off from parts, and what it adds that does not touch them, numbers of their own.
 
-    The largest piece that is left of the part stays, or that of a new part; of a part that was in several pieces, as
+    The largest piece that is left of a part stays, or that of a new part; of a part that was in several pieces, as
     those that touch nothing are, the largest that is left of each.
 
     Parameters
@@ -109,14 +109,22 @@ def renumber_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, n
     stored : Stored
     numbers : (c,) int64
         The part of each candidate; changed in place.
-    number : int
-        The part that may have fallen apart.
+    concerned : iterable of int
+        The parts that may have fallen apart; some may be gone.
 
     Returns
     -------
-    made : set of int
-        The new numbers.
+    changed : set of int
+        These parts, and the new numbers.
     """
+    changed = set(concerned)
+    for number in sorted(changed & set(numbers.tolist())):
+        changed |= _renumber_pieces_of(mesh, stored, numbers, number)
+    return changed
+
+
+def _renumber_pieces_of(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
+    """What ``renumber_pieces`` does for one part; the new numbers."""
     from ...core.result.editing.changes import components_of
 
     area = stored.decomposition.candidate_area
