@@ -103,7 +103,8 @@ def minimum_cuts(movable: MovableCuts, part: np.ndarray, within: np.ndarray | No
     length = movable.mesh.pair_length
     free = np.ones(len(a), bool) if within is None else within[a] == within[b]
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
-        on_cut = ((part[a] == first) & (part[b] == second)) | ((part[a] == second) & (part[b] == first))
+        of_a, of_b = part[a], part[b]
+        on_cut = ((of_a == first) & (of_b == second)) | ((of_a == second) & (of_b == first))
         half_width = movable.half_width(length[on_cut].sum())
         if half_width > 0:  # parts may touch no longer, or along edges without a length
             part = _cut_anew(movable, part, (first, second), on_cut, half_width)
@@ -180,7 +181,8 @@ def _cut_anew(
 
 def _rim(pairs: np.ndarray, band: np.ndarray, part: np.ndarray) -> np.ndarray:
     """The rim of a band, (m,) bool: its faces with a neighbor of their own part outside, which cannot change part."""
-    a, b = pairs[(band[pairs[:, 0]] != band[pairs[:, 1]]) & (part[pairs[:, 0]] == part[pairs[:, 1]])].T
+    across = np.flatnonzero(band[pairs[:, 0]] != band[pairs[:, 1]])
+    a, b = pairs[across[part[pairs[across, 0]] == part[pairs[across, 1]]]].T
     rim = np.zeros(len(band), bool)
     rim[np.where(band[a], a, b)] = True
     return rim

@@ -190,11 +190,11 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
             willing = np.flatnonzero(gain > 0)
             gain[willing] -= loss(faces[willing], label[willing], best[willing])
         gain[gain <= least] = 0.0
+        flip = gain > 0
         # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
+        both = np.flatnonzero(flip[a] & flip[b])
         rank = inverse(np.argsort(gain, kind="stable"))
-        beaten = np.zeros(len(label), bool)
-        beaten[a[(gain[b] > 0) & (rank[b] > rank[a])]] = True
-        flip = (gain > 0) & ~beaten
+        flip[a[both[rank[b[both]] > rank[a[both]]]]] = False
         if not flip.any():
             break
         label[flip] = best[flip]
@@ -218,9 +218,13 @@ def _gains(a: np.ndarray, b: np.ndarray, length: np.ndarray, label: np.ndarray) 
 
     a, b, length : (e,), each pair of faces that touch, both ways. 0 and -1 for a face at no boundary.
     """
-    edge = label[a] != label[b]
+    differ = label[a] != label[b]
+    edge = np.flatnonzero(differ)
     owner, other, weight = a[edge], label[b[edge]], length[edge]
-    inside = np.bincount(a[~edge], length[~edge], len(label))
+    at_boundary = np.zeros(len(label), bool)
+    at_boundary[owner] = True
+    same = np.flatnonzero(at_boundary[a] & ~differ)
+    inside = np.bincount(a[same], length[same], len(label))
     best = majority(owner, other, weight, len(label))
     toward = other == best[owner]
     gain = sums_by(owner[toward], weight[toward], len(label)) - inside
