@@ -47,7 +47,7 @@ class Linkage(NamedTuple):
     Attributes
     ----------
     merges : (s, 2) int64
-        A member of each of the two groups that join, in order.
+        The lowest member of each of the two groups that join, in order; the lower one first.
     scores : (s,) float64
         Of the groups when they joined. It may rise from one merge to the next.
     rows : (s,) int64

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
 from ...arrays.components import components
@@ -136,13 +135,11 @@ class _Groups:
     def of(cls, linked: Linkage, token: np.ndarray, kind: np.ndarray) -> _Groups:
         """The groups of a linkage of parts; token, kind : (c,), of each part, and of the piece that it lies in."""
         count, made = len(token), len(linked.merges)
-        joined = DisjointSet(range(count))
-        newest = list(range(count))  # the group of each representative
+        newest = list(range(count))  # the group whose lowest member each part is
         both = np.empty((made, 2), np.int64)
         for k, (a, b) in enumerate(linked.merges.tolist()):
-            both[k] = newest[joined[a]], newest[joined[b]]
-            joined.merge(a, b)
-            newest[joined[a]] = count + k
+            both[k] = newest[a], newest[b]
+            newest[a] = count + k
         sums, kinds = token.tolist(), kind.tolist()  # -1 for a group of several kinds
         for a, b in both.tolist():
             sums.append((sums[a] + sums[b]) % 2**64)
