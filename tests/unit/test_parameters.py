@@ -173,3 +173,13 @@ def test_a_name_that_is_no_parameter():
     for name in ([], None, {}, "x" * 1000):
         with pytest.raises(ParameterError, match="no preset"):
             Parameters.preset(name)
+
+
+def test_parameters_are_taken_as_they_are_by_name_or_as_the_first_preset():
+    given = Parameters(detail=0.25)
+    assert Parameters.of(given) is given
+    assert Parameters.of({"detail": 0.25}) == given
+    assert Parameters.of(None) == Parameters.of({}) == Parameters() == PRESETS["Perceptual"]
+    for value in (0.25, "Perceptual", [("detail", 0.25)], {1: 0.25}):
+        with pytest.raises(ParameterError, match="^Parameters are given by their names, not as "):
+            Parameters.of(value)

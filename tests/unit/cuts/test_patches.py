@@ -62,3 +62,14 @@ def test_of_two_equally_small_patches_the_first_joins_the_other():
         column = np.floor(mesh.face_centroids[:, 0]).astype(int)
         found = absorb_small(mesh, np.minimum(column, 2), 1.5 / mesh.area)
         assert found.tolist() == np.array(expected)[column].tolist()
+
+
+def test_patches_end_where_a_sheet_is_folded_up_and_cross_where_it_is_folded_down():
+    """Seven seeds at most, on a sheet 12 long and 6 wide with a fold of 90 degrees across its middle."""
+    x, y, _ = shapes.flat_grid(12, 6).vertices.T
+    for up in (1.0, -1.0):
+        folded = np.stack([x, y, up * np.abs(x - 6.0)], axis=1)
+        mesh = TriMesh(folded, shapes.flat_grid(12, 6).faces)
+        label, left = concave_patches(mesh, 7), mesh.face_centroids[:, 0] < 6.0
+        both = np.intersect1d(label[left], label[~left])
+        assert len(both) == 0 if up > 0 else len(both) > 0

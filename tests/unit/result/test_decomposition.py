@@ -98,6 +98,18 @@ def test_any_grouping():
     assert parts.cut_length.tolist() == [3]
 
 
+def test_parts_that_only_a_link_joins_do_not_touch():
+    """Candidates 0 and 1 share an edge without a length, 1 and 2 a link and then a contact, too, 2 and 3 a link."""
+    result = replace(row(), candidate_pair_length=np.zeros(3), contacts=np.array([(2, 4), (5, 6)]),
+                     links=np.array([(2, 4), (5, 6)]))
+    assert result.pair_touches.tolist() == [True, False, False]  # each link is a contact, too
+    result = replace(result, contacts=np.array([(1, 3), (2, 4), (5, 6)]))
+    assert result.pair_touches.tolist() == [True, True, False]
+    parts = result.parts(n_parts=4)
+    assert parts.cuts.tolist() == [[0, 2], [0, 3], [1, 2]]  # of candidates 2 and 1, 2 and 3, 0 and 1
+    assert parts.cut_touches.tolist() == [True, False, True]
+
+
 @pytest.mark.parametrize("rounding", [-1e-15, 0.0, 1e-15, 1e-7])
 def test_of_two_parts_as_large_as_each_other_the_first_is_part_0_in_every_pose(rounding):
     result = replace(row(), candidate_area=np.array([1.0, 2.0, 6.0, 6.0 * (1 + rounding)]))

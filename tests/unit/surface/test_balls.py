@@ -29,3 +29,12 @@ def test_in_a_circle_every_ball_is_the_circle(radius):
     out = np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1)
     found = ball_radius(cKDTree(radius * out), radius * out, -out, 10 * radius)
     np.testing.assert_allclose(found, radius, rtol=1e-2)
+
+
+@pytest.mark.parametrize("scale", [0.1, 5.0])
+def test_roughness_does_not_hold_a_ball(scale):
+    """A bump beside the point would, at an angle of 19 degrees from the center; the wall across holds it."""
+    point, up = scale * np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
+    bump, wall = scale * np.array([[0.3, 0.0, 0.05]]), scale * np.array([[0.0, 0.0, 3.0]])
+    found = ball_radius(cKDTree(np.concatenate([point, bump, wall])), point, up, 10.0 * scale)
+    np.testing.assert_allclose(found, 1.5 * scale, rtol=1e-12)
