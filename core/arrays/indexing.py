@@ -287,8 +287,8 @@ def first_at_place(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     """
     first = arange(len(points))
     # Adding 0.0 turns -0.0 into 0.0: both are one place.
-    _, place, inverse = np.unique(points[chosen] + 0.0, axis=0, return_index=True, return_inverse=True)
-    first[chosen] = chosen[place[inverse.reshape(-1)]]
+    _, at, place = np.unique(points[chosen] + 0.0, axis=0, return_index=True, return_inverse=True)
+    first[chosen] = chosen[at[place.reshape(-1)]]
     return first
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.indexing import inverse
 from ..arrays.int64 import arange
 from ..arrays.ties import TIE, first_largest
 from .decomposition import Decomposition
@@ -68,7 +69,7 @@ def number_births(
         number[slice(*new)] = births[-1]
     order = np.argsort(births)
     birth_order = order[np.searchsorted(np.array(births)[order], number)]
-    place = np.argsort(splits.order)
+    place = inverse(splits.order)
     return _previous_first(number[place], birth_order[place], previous_number[place], vote.left_over)
 
 
@@ -145,7 +146,7 @@ def _previous_first(
     place = place[np.argsort(birth_order[place], kind="stable")]
     place = place[np.unique(previous_number[place], return_index=True)[1]]
     number[place], new[place] = previous_number[place], False
-    return number, np.argsort(np.lexsort((birth_order, new)))
+    return number, inverse(np.lexsort((birth_order, new)))
 
 
 def make_room(
@@ -169,7 +170,7 @@ def make_room(
     number, birth_order : (c,) int64
         The same of the candidates as they are now.
     """
-    number, order = number.copy(), np.argsort(birth_order)
+    number, order = number.copy(), inverse(birth_order)
     taken, known, last = set(pinned.tolist()), set(previous_number.tolist()), 0
     for candidate in order[~np.isin(number[order], previous_number[previous_number > 0])].tolist():
         free = max(int(number[candidate]), last + 1)
@@ -179,4 +180,4 @@ def make_room(
     # A candidate outside a pinned part that carries the number of this part gets a number that is born last.
     robbed = np.isin(number, pinned[pinned > 0]) & (number != pinned)
     number[robbed] = max(number.max(), pinned.max()) + 1 + arange(robbed.sum())
-    return np.where(pinned > 0, pinned, number), np.argsort(order[np.argsort(robbed[order], kind="stable")])
+    return np.where(pinned > 0, pinned, number), inverse(order[np.argsort(robbed[order], kind="stable")])

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays.indexing import place_among, stable_order, sums_by
+from ..arrays.indexing import inverse, place_among, stable_order, sums_by
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import ranks
@@ -218,7 +218,7 @@ class Numbering:
         part = self.splits.parts(self.splits.n_done(self.decomposition, detail, n_parts))
         first_born = full(part.max() + 1, len(part))
         np.minimum.at(first_born, part, self.birth_order)
-        return self.numbered(self.candidate_number[np.argsort(self.birth_order)][first_born][part])
+        return self.numbered(self.candidate_number[inverse(self.birth_order)][first_born][part])
 
     @property
     def salience(self) -> np.ndarray:
@@ -261,7 +261,7 @@ def _number_graph(
     therefore enough to look up the neighbors of each number when it is born.
     """
     own, born = candidate_number[splits.order], birth_order[splits.order]
-    beside = both_ways(np.argsort(splits.order)[decomposition.candidate_pairs])
+    beside = both_ways(inverse(splits.order)[decomposition.candidate_pairs])
     beside = beside[stable_order(beside[:, 0])]
     first = np.searchsorted(beside[:, 0], arange(len(own) + 1))
     number, found = np.zeros_like(own), []
