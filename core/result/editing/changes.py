@@ -217,7 +217,7 @@ def boundary_distance(
     # A path begins across the boundary and then stays on one side. It has a length, so that its sign says which.
     length = np.maximum(pair_length, 1e-12 * (pair_length.max(initial=0.0) or 1.0))
     for side in (False, True):
-        usable = ~(sides != side).all(axis=1)
+        usable = (sides == side).any(axis=1)
         border = np.unique(face_pairs[sides[:, 0] != sides[:, 1]])
         border = border[inside[border] != side]
         if not len(border):
