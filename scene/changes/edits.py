@@ -26,10 +26,7 @@ _BESIDE = 0.5  # share of a candidate's faces, more on one side than on the othe
 
 
 def _twins(stored: Stored) -> dict[int, int]:
-    """The mirror image of each part that has one, by number, itself for one that lies across the plane.
-
-    None without Symmetry.
-    """
+    """Mirror image of each part that has one, by number, itself for one across the plane; empty without Symmetry."""
     from ...core.result.editing.mirrored import twin_numbers
 
     return twin_numbers(stored.shown_parts()) if bpy.context.scene.reeb_parts.symmetry else {}
@@ -206,8 +203,7 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
     twin = _twins(stored).get(number, number)
     if twin == number or not len(found.face_side):
         return np.ones(len(shown))
-    count = np.bincount(found.candidates, minlength=len(shown))
-    beside = np.bincount(found.candidates, found.face_side, len(shown))
+    count, beside = np.bincount(found.candidates, minlength=len(shown)), found.candidate_side
     own = np.sign(beside[shown == number].sum())
     return np.where(shown == twin, -1.0, own * beside / np.maximum(count, 1))
 
