@@ -43,7 +43,7 @@ PROFILE = 2.0  # weight of the difference of these distances, in units of the sq
 DISTANCE = 2.0  # weight of the change of distances, in units of the largest one
 # Weights of positions from which the search starts, before it goes on without them; and the weight by which plans are
 # judged that it leads to.
-STARTS, TIE = (0.0, 0.3, 1.0, 3.0, 10.0, 30.0), 0.1
+STARTS, JUDGED = (0.0, 0.3, 1.0, 3.0, 10.0, 30.0), 0.1
 PROXIMAL_STEP = 0.01  # size of a proximal step: entropy of the change, in units of the costs
 FIRST, LAST, ROUNDS = 15, 40, 60  # steps with and without positions; rounds that balance a plan in each of them
 
@@ -166,7 +166,8 @@ def correspond(source: Samples, target: Samples) -> np.ndarray:
     for weight in STARTS:
         plan = _descend(source, target, profile + weight * place, start, FIRST)
         plans.append(_descend(source, target, profile, plan, LAST))
-    cost = [float(((profile + TIE * place + DISTANCE * _change(source, target, plan)) * plan).sum()) for plan in plans]
+    judged = profile + JUDGED * place
+    cost = [float(((judged + DISTANCE * _change(source, target, plan)) * plan).sum()) for plan in plans]
     return plans[int(np.argmin(cost))]
 
 
