@@ -11,7 +11,7 @@ import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array
 
-from ....core.arrays.indexing import ranges
+from ....core.arrays.indexing import inverse, ranges
 from ....core.arrays.int64 import arange, cumsum, full
 from ....core.arrays.pairs import edge_keys
 from ....core.arrays.vectors import cross, cross_in_plane
@@ -324,7 +324,7 @@ def _seen(curves: Sequence[np.ndarray]) -> list[_Rims]:
 def _disc(curve: np.ndarray, rims: _Rims, density: float = 1.0) -> Disc | None:
     """A surface across curves by what they look like in a plane; None where they meet themselves there."""
     flat = rims.flat
-    inner = away_from_curve(flat, flat[np.argsort(rims.following)], density)
+    inner = away_from_curve(flat, flat[inverse(rims.following)], density)
     for _ in range(4):
         found = _triangulated(rims, inner)
         if found is None:
