@@ -66,6 +66,9 @@ def main(arguments: list[str]) -> int:
         except (SceneError, ReebError) as error:
             say(str(error))
             return WRONG_OPTION if isinstance(error, ParameterError) else FAILED
+        except MemoryError:
+            say("There is not enough memory; nothing was written.")
+            return FAILED
         try:
             answer.write(_as_text(result))
             answer.flush()

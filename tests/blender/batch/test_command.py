@@ -176,6 +176,21 @@ def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):
     assert len(bpy.data.objects["Tree"].data.reeb_parts.parts) == len(ended.answer["objects"][0]["parts"])
 
 
+def test_a_lack_of_memory_while_files_are_written_is_one_sentence(package, run, model, tmp_path, monkeypatch):
+    """It ended in a traceback, where a lack of memory before was a sentence."""
+    def fail(path):
+        raise MemoryError
+
+    (tmp_path / "out.json").write_text("an earlier one")
+    (tmp_path / "x.blend").write_text("an earlier one")
+    monkeypatch.setattr(import_module(f"{package}.scene.saving.file_checks"), "blend", fail)
+    ended = run(model, "--json", tmp_path / "out.json", "--parts", tmp_path / "parts", "--save", tmp_path / "x.blend")
+    assert (ended.status, ended.out) == (1, "")
+    assert "reeb_parts: There is not enough memory; nothing was written." in ended.err
+    assert {path.name for path in tmp_path.iterdir()} == {"own.obj", "x.blend"}
+    assert (tmp_path / "x.blend").read_text() == "an earlier one"
+
+
 def test_several_models_and_one_that_cannot_be_read_costs_only_itself(run, model, tmp_path):
     other, broken, missing = (tmp_path / name for name in ("other.obj", "empty.obj", "missing.obj"))
     other.write_bytes(model.read_bytes())
