@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+from itertools import takewhile
 from pathlib import Path
 
 import bpy
@@ -22,11 +24,13 @@ WITHOUT_UNIT = (".obj", ".ply", ".stl", ".abc")
 def import_model(path: Path) -> list[bpy.types.Object]:
     """Import a model into the scene; returns its meshes, also those that nothing but instances shows.
 
-    Raises RuntimeError, as Blender's operators do.
+    Raises RuntimeError, as Blender's operators do, and OSError.
     """
     kind, before = path.suffix.lower(), set(bpy.context.scene.objects)
     if kind == ".abc":
         _check_end(path)
+    elif kind == ".ply":
+        _check_counts(path)
     try:
         ended = IMPORTERS[kind](filepath=str(path.resolve()))
     except AttributeError as error:  # the operator is not there: an add-on is off, or Blender was built without
@@ -56,6 +60,20 @@ def _check_end(path: Path) -> None:
         rest = path.stat().st_size - file.tell()
     if head[5:6] != b"\xff" or len(size) < 8 or rest < 8 * int.from_bytes(size, "little"):
         raise RuntimeError("it is cut short")
+
+
+def _check_counts(path: Path) -> None:
+    """Raise RuntimeError if the head of a .ply has no number of some element, or a larger one than the file has bytes.
+
+    Blender would crash there, or take all memory for them first.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        for line in takewhile(lambda line: not line.startswith(b"end_header"), file):
+            if line.startswith(b"element"):
+                count = re.match(rb"\S+\s+\S+\s+([+-]?\d{1,18})(?!\d)", line)
+                if count is None or abs(int(count[1])) > size:
+                    raise RuntimeError("it is damaged or cut short")
 
 
 def _mend_corners(mesh: bpy.types.Mesh) -> None:

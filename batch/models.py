@@ -149,7 +149,7 @@ def _imported(path: Path) -> list:
     _check_model(path, tuple(IMPORTERS))
     try:
         meshes = import_model(path)
-    except RuntimeError as error:  # what Blender's own operators report
+    except (RuntimeError, OSError) as error:  # the former is what Blender's own operators report
         raise SceneError(f"{path} could not be read: {reason(error)}") from error
     if not meshes:
         raise SceneError(f"There is no mesh in {path}.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""USD and Alembic: what the command imports, and what the package's script for a Blender reads of the same files.
+"""What the command imports, above all of USD and Alembic, and what the package's script for a Blender reads of these.
 
 A Blender may be built without either, as Debian's is; it says so.
 """
@@ -129,6 +129,59 @@ def test_what_blender_has_no_importer_of_is_said(run, tmp_path):
     assert ended.status == 1
     assert "model.fbx could not be read: this Blender has no importer of .fbx" in ended.err
     assert "Traceback" not in ended.err
+
+
+PLY = """ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+element face {count}
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+3 0 2 1
+3 0 1 3
+3 1 2 3
+3 2 0 3
+"""
+
+
+@pytest.mark.parametrize("count", ["", "four", "2147483647", "-3000000000", "9" * 5000])
+def test_a_ply_with_a_damaged_head_costs_only_itself(run, model, tmp_path, count):
+    """Blender's importer ends the program there, or counts on so many faces; an old answer outlasted the run."""
+    path = tmp_path / "head.ply"
+    path.write_text(PLY.format(count=count))
+    ended = run(path, model)
+    assert ended.status == 1
+    assert ended.answer["problems"] == [
+        {"name": str(path), "problem": f"{path} could not be read: it is damaged or cut short"}]
+    assert [mesh["model"] for mesh in ended.answer["objects"]] == [str(model)]
+
+
+@pytest.mark.parametrize(("before", "after"), [
+    ("element face", "comment element x\nelement  face"), ("\n", "\r\n"), ("face 4", "face\t4 ")])
+def test_a_ply_with_an_unusual_head_is_read(imported, tmp_path, before, after):
+    path = tmp_path / "head.ply"
+    path.write_bytes(PLY.format(count=4).replace(before, after).encode())
+    assert len(imported(path)["head"].data.polygons) == 4
+
+
+@pytest.mark.parametrize("kind", ["ply", "abc"])
+def test_a_file_that_may_not_be_read_is_one_sentence(run, tmp_path, monkeypatch, kind):
+    def fail(path, mode):
+        raise PermissionError(13, "Permission denied")
+
+    path = tmp_path / f"closed.{kind}"
+    path.write_bytes(b"")
+    monkeypatch.setattr(Path, "open", fail)
+    ended = run(path)
+    assert ended.status == 1
+    assert f"{path} could not be read: Permission denied" in ended.err
 
 
 if not (bpy.app.build_options.usd and bpy.app.build_options.alembic):
