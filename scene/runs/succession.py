@@ -64,6 +64,8 @@ def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -
         locked = [part.number for part in obj.data.reeb_parts.parts if part.locked]
         pinned = np.where(np.isin(previous, locked), previous, 0)
     elif former is not None:
+        if old is None:
+            _forget_deleted(obj.data, former.number)
         previous, pinned = former.of_candidates(decomposition)
         if former.pinned.any():
             decomposition = _cut_around_pins(obj, shape, decomposition, former, pinned[decomposition.candidates])
@@ -93,6 +95,16 @@ def _at_places(mesh: bpy.types.Mesh, decomposition: Decomposition) -> np.ndarray
     mutual = nearest(search_tree(now), before)[1][place] == arange(parts.count)
     numbers = np.array([part.number for part in listed])[place]
     return np.where(near & mutual, numbers, 0)[parts.candidate_part]
+
+
+def _forget_deleted(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
+    """Forget names, colors and locks of parts that were shown and have no face any more; others may come back.
+
+    numbers : (p,) int64, the part that each face was in.
+    """
+    shown = {part.number for part in mesh.reeb_parts.parts}
+    hidden = [entry.number for entry in mesh.reeb_parts.names if entry.number not in shown]
+    _forget_all_but(mesh, np.append(numbers, hidden))
 
 
 def _forget_all_but(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:

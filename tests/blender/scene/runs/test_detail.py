@@ -3,6 +3,7 @@
 
 import importlib
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -108,8 +109,6 @@ def looks(result):
 
 def edit(mesh):
     """Half of the faces are cut in two by another edge, and all points move a little."""
-    import bmesh
-
     work = bmesh.new()
     work.from_mesh(mesh)
     bmesh.ops.subdivide_edges(work, edges=[edge for edge in work.edges if edge.index % 7 == 0], cuts=1)
@@ -157,6 +156,24 @@ def test_faces_that_do_not_tell_leave_names_in_their_places(obj, result):
         assert (place[name.removeprefix("My ")] - middle).length < 0.2
     assert [part.number for part in result.parts if part.locked] == [locked]
     assert [part.number for part in result.parts if part.pinned] == [locked]
+
+
+def test_what_was_given_to_a_part_goes_with_its_last_face(obj, result):
+    """Its number is free then, and the next new part had it, with the name, the color and the lock of a deleted one."""
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    part = min(result.parts, key=lambda part: part.share)
+    number = part.number
+    part.name, part.color, part.locked = "Gone", (0.1, 0.2, 0.3), True
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    numbers = bm.faces.layers.int["reeb_part"]
+    bmesh.ops.delete(bm, geom=[face for face in bm.faces if face[numbers] == number], context="FACES")
+    bm.to_mesh(obj.data)
+    bm.free()
+    bpy.ops.reeb_parts.decompose(n_parts=8)
+    assert number in {part.number for part in result.parts}
+    assert "Gone" not in {part.name for part in result.parts} | {entry.name for entry in result.names}
+    assert not any(part.locked or np.allclose(part.color, (0.1, 0.2, 0.3)) for part in result.parts)
 
 
 @pytest.mark.parametrize("change", [{"detail": 0.9}, {"n_parts": 3}])
