@@ -48,6 +48,8 @@ class Shape:
         Of each face of the mesh, see ``face_hints``; empty for none.
     digest : str
         Equal for equal vertices, triangles and polygons.
+    fingerprint : str
+        Of the mesh; stays when shape keys or the object's scale are animated, see ``fingerprints``.
     notes : tuple of Sentence
     problem : Sentence or None
         Why there are too few faces, where modifiers make those that are seen.
@@ -61,6 +63,7 @@ class Shape:
     mirror: np.ndarray
     hints: np.ndarray
     digest: str
+    fingerprint: str
     notes: tuple[Sentence, ...]
     problem: Sentence | None = None
 
@@ -93,13 +96,13 @@ def reading_shape(obj: bpy.types.Object, hints: str) -> Steps[Shape]:
             with freed(bmesh.from_edit_mesh(mesh).copy()) as edit:
                 edit.to_mesh(copy)
             points, (triangles, polygon) = mesh_arrays.basis_points(copy), mesh_arrays.triangles(copy)
-            hint = face_hints.read(copy, hints)
+            hint, fingerprint = face_hints.read(copy, hints), fingerprints.fingerprint(copy)
     else:
         points = shown_points(obj)
         yield 0.3
         triangles, polygon = mesh_arrays.triangles(mesh)
         yield 0.6
-        hint = face_hints.read(mesh, hints)
+        hint, fingerprint = face_hints.read(mesh, hints), fingerprints.fingerprint(mesh)
     yield 0.7
     stretch = world_stretch(obj)
     vertices = points.astype(np.float64)
@@ -111,7 +114,7 @@ def reading_shape(obj: bpy.types.Object, hints: str) -> Steps[Shape]:
     mirror = half_plane(obj, vertices, stretch)
     yield 0.8
     digest = fingerprints.digest(vertices, triangles, polygon)
-    return Shape(obj.session_uid, vertices, triangles, polygon, stretch, mirror, hint, digest,
+    return Shape(obj.session_uid, vertices, triangles, polygon, stretch, mirror, hint, digest, fingerprint,
                  _notes(obj, len(mirror) > 0), _problem(obj, int(polygon[-1]) + 1 if len(polygon) else 0))
 
 

@@ -570,6 +570,19 @@ def test_parts_of_what_was_edited_or_deleted_meanwhile_are_not_written(computed,
     assert "is gone" in computed()
 
 
+def test_another_frame_is_no_edit(computed, obj):
+    """While animated shape keys, or an animated scale, were played, all was computed in vain."""
+    obj.scale.x = 2.0
+    assert not computed()
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Up")
+    key.data[0].co.z += 0.5
+    key.value = 1.0
+    assert not computed()
+    obj.data.vertices[1].co.z += 0.5
+    assert "was changed while its parts were computed" in computed()
+
+
 def test_an_object_that_is_renamed_meanwhile_gets_its_parts(computed, obj):
     obj.name = "Renamed"
     assert not computed()
