@@ -57,10 +57,18 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         name="Show All", options={"SKIP_SAVE"}, description="Show every face again",
     )
 
+    def run(self, context: bpy.types.Context) -> None:
+        if not self.show_all:
+            super().run(context)
+            return
+        obj = targets.active_object(context)
+        assert obj is not None  # check_context has looked
+        with object_mode(context):  # also if the mesh was edited, as a part is that was isolated for it
+            hidden.isolate(obj.data, np.full(len(obj.data.polygons), True))
+            _look_again(obj.data, store.last(obj.data))
+
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
-        numbers = stored.face_numbers
-        shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(obj.data))
-        hidden.isolate(obj.data, shown)
+        hidden.isolate(obj.data, np.isin(stored.face_numbers, chosen_numbers(obj.data)))
         _look_again(obj.data, stored)
 
 

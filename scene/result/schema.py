@@ -51,7 +51,7 @@ class ReebPart(bpy.types.PropertyGroup):
     only_locked: BoolProperty(description="The part is pinned by its lock alone, and was not changed by hand")
     selected: BoolProperty(
         name="Selected", update=lambda _, context: undo_steps.keep_all(context), options=set(),
-        description="Included in what is done to the selected parts",
+        description="Included in what is done to the chosen parts",
     )
     group: StringProperty(description="The vertex group made for the part")
     material: PointerProperty(type=bpy.types.Material, description="The material made for the part")

@@ -386,7 +386,7 @@ TEXTS = {
     "The part is pinned by its lock alone, and was not changed by hand":
         "Das Teil ist nur durch seine Sperre festgepinnt und wurde nicht von Hand geändert",
     "Selected": "Ausgewählt",
-    "Included in what is done to the selected parts": "Gehört zu dem, was mit den ausgewählten Teilen geschieht",
+    "Included in what is done to the chosen parts": "Gehört zu dem, was mit den gewählten Teilen geschieht",
     "The vertex group made for the part": "Die Punktgruppe, die für das Teil erstellt wurde",
     "The material made for the part": "Das Material, das für das Teil erstellt wurde",
     "The mesh was edited since": "Das Mesh wurde seither bearbeitet",

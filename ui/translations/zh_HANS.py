@@ -376,7 +376,7 @@ TEXTS = {
     "The part was changed by hand and stays whatever the detail": "该部件经过手动更改，无论细节如何都予以保留",
     "The part is pinned by its lock alone, and was not changed by hand": "该部件仅因锁定而钉住，未经手动更改",
     "Selected": "选中项",
-    "Included in what is done to the selected parts": "包含在对所选部件的操作中",
+    "Included in what is done to the chosen parts": "包含在对所选部件的操作中",
     "The vertex group made for the part": "为部件创建的顶点组",
     "The material made for the part": "为部件创建的材质",
     "The mesh was edited since": "网格在此之后被编辑过",

@@ -52,6 +52,29 @@ def test_hidden_parts_are_not_seen_and_all_come_back(obj, result):
     assert left == []
 
 
+@pytest.mark.parametrize("edit", ["move", "subdivide"])
+def test_show_all_shows_what_was_isolated_and_edited(obj, result, edit):
+    """It was refused until the mesh was decomposed again."""
+    sizes = {node.name: node.empty_display_size for node in obj.children}
+    choose(result, 1)
+    bpy.ops.reeb_parts.isolate()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    if edit == "move":
+        bpy.ops.transform.translate(value=(0.1, 0.0, 0.0))
+    else:
+        bpy.ops.mesh.subdivide()
+    bpy.ops.reeb_parts.isolate(show_all=True)
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert sum(seen(obj).values()) == len(obj.data.polygons)
+    assert not obj.modifiers
+    assert not any(polygon.hide for polygon in obj.data.polygons)
+    assert {node.name: node.empty_display_size for node in obj.children} == sizes
+    with pytest.raises(RuntimeError, match="was edited since it was decomposed"):
+        bpy.ops.reeb_parts.isolate()
+
+
 def test_renders_show_everything(obj, result):
     choose(result, 1)
     bpy.ops.reeb_parts.hide()
