@@ -173,5 +173,20 @@ def _former(mesh: bpy.types.Mesh, old: Stored | None, parameters: Parameters) ->
     if attribute is not None and len(attribute.data) == len(faces):
         faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
         faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0
+        _number_images_(mesh, faces)
     pinned = [part.number for part in result.parts if part.pinned]
     return _Former(faces, np.where(np.isin(faces, pinned), faces, 0))
+
+
+def _number_images_(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
+    """Give faces that Blender's Symmetrize has made of a part the number of its image, of which no face is left.
+
+    numbers : (p,) int64, the part of each face; what it has copied has the numbers of the other side.
+    """
+    known = set(np.unique(numbers).tolist())
+    lost = {number: image for number, image in part_names.twins(mesh).items() if number in known and image not in known}
+    middle = {part.number: np.array(part.middle) for part in mesh.reeb_parts.parts}
+    center = mesh_arrays.face_middles(mesh)[0] if lost else None
+    for number, image in lost.items():
+        nearer = np.linalg.norm(center - middle[image], axis=1) < np.linalg.norm(center - middle[number], axis=1)
+        numbers[nearer & (numbers == number)] = image

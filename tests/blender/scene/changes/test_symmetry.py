@@ -64,6 +64,28 @@ def test_images_have_one_number_and_a_side(mesh):
         assert center[:, 0].mean() > 0
 
 
+@pytest.mark.parametrize("direction", ["NEGATIVE_X", "POSITIVE_X"])
+def test_parts_stay_on_their_sides_after_symmetrize(mesh, direction):
+    """It copies numbers, too: names of the left went to the right, and pinned parts had faces on both sides."""
+    choose(mesh, part(mesh, ".L"))
+    bpy.ops.reeb_parts.grow(rings=1)
+    part(mesh, ".L").name = "Arm.L"
+    part_named(mesh, "Arm.L").color = (1.0, 0.0, 0.0)
+    before = {entry.name: (entry.number, entry.pinned, tuple(entry.color)) for entry in mesh.reeb_parts.parts}
+    assert before["Arm.L"][1]
+    assert before["Arm.R"][1]
+    mesh.vertices[0].co.x *= 1.001  # an edit, in any case
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.symmetrize(direction=direction)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.reeb_parts.decompose()
+    assert {entry.name: (entry.number, entry.pinned, tuple(entry.color)) for entry in mesh.reeb_parts.parts} == before
+    for entry in mesh.reeb_parts.parts:
+        side = {"L": 1.0, "R": -1.0}.get(entry.name[-1], 0.0)
+        assert np.sign(np.round(entry.middle[0], 3)) == side
+
+
 def test_groups_and_materials_have_the_names_in_the_list_whatever_the_detail(make):
     """A part that has an image at one detail, and none at another, kept the group and material of its former name."""
     obj = make(shapes.mirrored_figure(), "Figure")
