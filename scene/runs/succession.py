@@ -172,8 +172,8 @@ def _former(mesh: bpy.types.Mesh, old: Stored | None, parameters: Parameters) ->
     faces = np.zeros(len(mesh.polygons), np.int64)
     if attribute is not None and len(attribute.data) == len(faces):
         faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
-        faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0
         _number_images_(mesh, faces)
+        faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0  # what is stored may be damaged
     pinned = [part.number for part in result.parts if part.pinned]
     return _Former(faces, np.where(np.isin(faces, pinned), faces, 0))
 
