@@ -66,6 +66,7 @@ def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -
     elif former is not None:
         if old is None:
             _forget_deleted(obj.data, former.number)
+            former = _copies_apart(obj, shape, decomposition, former)
         previous, pinned = former.of_candidates(decomposition)
         if former.pinned.any():
             decomposition = _cut_around_pins(obj, shape, decomposition, former, pinned[decomposition.candidates])
@@ -142,6 +143,38 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
         return decomposition
     finer = split_around(decomposition, pinned, *bridge.face_graph(obj, shape))
     return scraps_joined(finer, pinned, former.number)
+
+
+def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition, former: _Former) -> _Former:
+    """Let pinned parts that an edit has put in several places, as Mirror and Array do, be a pinned part in each.
+
+    The one that is nearest to where the part was keeps its number; what is less than half as large stays with it.
+    """
+    from ...core.result.editing.changes import components_of
+
+    mesh = obj.data
+    try:
+        before = store.last(mesh)
+    except SceneError:
+        return former
+    if not former.pinned.any():
+        return former
+    touching = bridge.face_graph(obj, shape)[0].with_contacts(decomposition.contacts)
+    _, piece = touching.regions(np.where(former.pinned > 0, former.pinned, -1))
+    number, pinned, (center, area) = former.number.copy(), former.pinned.copy(), mesh_arrays.face_middles(mesh)
+    taken = {*number.tolist(), *(entry.number for entry in (*mesh.reeb_parts.names, *mesh.reeb_parts.parts))}
+    for part in mesh.reeb_parts.parts:
+        there = np.flatnonzero(former.pinned == part.number)
+        pieces, place = np.unique(piece[there], return_inverse=True)
+        if len(pieces) < 2 or components_of(before.decomposition, before.shown == part.number).max() > 0:
+            continue
+        size, middle = middles_of_each(place, center[there], area[there] + 1e-300, len(pieces))
+        stays = int(np.linalg.norm(middle - np.array(part.middle), axis=1).argmin())
+        for index in set(np.flatnonzero(2 * size > size[stays]).tolist()) - {stays}:
+            new = next(number for number in range(1, len(taken) + 2) if number not in taken)
+            number[there[place == index]] = pinned[there[place == index]] = new
+            taken.add(new)
+    return _Former(number, pinned)
 
 
 def _last(mesh: bpy.types.Mesh) -> Stored | None:

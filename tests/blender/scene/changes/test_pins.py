@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from mathutils import Vector
+from mathutils import Matrix, Vector
 from results import numbers
 from snapshot import check_undo
 
@@ -262,3 +262,31 @@ def test_faces_that_are_new_within_a_pinned_part_are_pinned(mesh):
     mesh.vertices[0].co.x += 1e-4
     bpy.ops.reeb_parts.decompose()
     check(mesh, parts, pinned)
+
+
+@pytest.mark.parametrize(("kind", "settings"), [
+    ("ARRAY", {"relative_offset_displace": (3.0, 0.0, 0.0)}),
+    ("MIRROR", {}),
+])
+def test_a_copy_of_a_pinned_part_is_a_pinned_part_of_its_own(obj, result, kind, settings):
+    """It was one part in two places, as a limb of a half model once Mirror is applied; both had its name."""
+    obj.data.transform(Matrix.Translation((5.0, 0.0, 0.0)))
+    bpy.ops.reeb_parts.decompose()
+    part = max(result.parts, key=lambda part: part.middle[2])
+    result.active = list(result.parts).index(part)
+    bpy.ops.reeb_parts.grow(rings=1)
+    part = result.parts[result.active]
+    part.name, part.color = "Limb", (1.0, 0.0, 0.0)
+    middle, count = Vector(part.middle), (numbers(obj.data) == part.number).sum()
+    modifier = obj.modifiers.new("Copies", kind)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    bpy.ops.object.modifier_apply(modifier="Copies")
+    bpy.ops.reeb_parts.decompose()
+    limb = result.parts["Limb"]
+    assert limb.pinned
+    assert (Vector(limb.middle) - middle).length < 1e-4
+    assert (numbers(obj.data) == limb.number).sum() == count
+    copies = [other for other in result.parts
+              if other.pinned and (numbers(obj.data) == other.number).sum() == count and other.name != "Limb"]
+    assert [tuple(copy.color) != (1.0, 0.0, 0.0) for copy in copies] == [True]
