@@ -153,11 +153,11 @@ def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposit
     from ...core.result.editing.changes import components_of
 
     mesh = obj.data
+    if not former.pinned.any():
+        return former
     try:
         before = store.last(mesh)
     except SceneError:
-        return former
-    if not former.pinned.any():
         return former
     touching = bridge.face_graph(obj, shape)[0].with_contacts(decomposition.contacts)
     _, piece = touching.regions(np.where(former.pinned > 0, former.pinned, -1))
@@ -171,7 +171,7 @@ def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposit
         size, middle = middles_of_each(place, center[there], area[there] + 1e-300, len(pieces))
         stays = int(np.linalg.norm(middle - np.array(part.middle), axis=1).argmin())
         for index in set(np.flatnonzero(2 * size > size[stays]).tolist()) - {stays}:
-            new = next(number for number in range(1, len(taken) + 2) if number not in taken)
+            new = next(free for free in range(1, len(taken) + 2) if free not in taken)
             number[there[place == index]] = pinned[there[place == index]] = new
             taken.add(new)
     return _Former(number, pinned)
