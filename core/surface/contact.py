@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays.components import components
-from ..arrays.indexing import is_last_of_each, last_of_each
+from ..arrays.indexing import is_last_of_each, last_of_each, sums_by
 from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE, first_least
@@ -23,6 +23,9 @@ from ..mesh.triangles import TriMesh
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
 # how much farther from each other than the nearest two points of two pieces other points may be to be linked.
 TOUCH, NEAR, SLACK = 0.01, 0.03, 0.005
+# A surface is a scene of several things if none of them is as long as this share of it. Things are of pieces that come
+# nearer to each other than a share of the diameter of both together; of a scene so many points are taken.
+LONGEST, NEAR_OF_THINGS, POINTS_OF_SCENE = 1 / 3, 0.06, 80_000
 CROWD = 1_000  # pieces; of so many, those that touch are looked for first
 MAX_POINTS = 8_000  # of a denser surface so many are taken
 # Pairs of points near each other that are looked at one by one, and how many more for each label that would be
@@ -186,7 +189,8 @@ class Bridges:
 def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     """Link the pieces of a surface where they come nearest to each other.
 
-    Pieces that touch are linked; a piece that touches none is linked to those that are near.
+    Pieces that touch are linked; a piece that touches none is linked to those that are near. Without ``connected``,
+    the things of a scene are not linked to each other: between props in a long row is less than NEAR of its length.
 
     Parameters
     ----------
@@ -208,34 +212,119 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     near = NEAR * size
     group, kept = arange(count), Bridges.none()
     if count > CROWD:  # which mostly hang together by what touches, and all that is near would be many times as much
-        found = _links(points, piece[points.face], (TOUCH + SLACK) * size, size)
-        if components(count, *piece[points.face[found]].T)[0] == 1:
-            return Bridges(points.vertex[found], points.face[found])
+        gaps = _Gaps.of(points, piece, (TOUCH + SLACK) * size)
+        if not connected and (length := gaps.longest_thing()) < LONGEST * size:
+            return _within_things(mesh, length)
+        links = gaps.links(size)
+        if components(count, *piece[links.faces].T)[0] == 1:
+            return links
     while True:
-        found = _links(points, group[piece[points.face]], near, size)
-        links = kept.with_more(points.vertex[found], points.face[found])
+        gaps = _Gaps.of(points, group[piece], near)
+        if not connected and (length := gaps.longest_thing()) < LONGEST * size:
+            return _within_things(mesh, length)
+        found = gaps.links(size)
+        links = kept.with_more(found.vertices, found.faces)
         n_bodies, body = components(count, *piece[links.faces].T)
         if n_bodies == 1 or not connected:
             return links
-        if len(found) > MANY_LINKS:
+        if len(found.faces) > MANY_LINKS:
             group, kept = body, links
         near *= 2
         points = SurfacePoints.of(mesh, piece, FAR_POINTS)
 
 
-def _links(points: SurfacePoints, piece: np.ndarray, near: float, size: float) -> np.ndarray:
-    """Pairs of points to be linked, (l, 2) int64; of pieces nearer than ``near``, a length.
+def _within_things(mesh: TriMesh, length: float) -> Bridges:
+    """Link the pieces of each thing of a scene, of which the longest is about so long."""
+    piece = mesh.face_components[1]
+    points = SurfacePoints.of(mesh, piece, POINTS_OF_SCENE)
+    gaps = _Gaps.of(points, piece, 2 * NEAR_OF_THINGS * length)
+    thing, _ = gaps.things()
+    return gaps.links(length, thing)
 
-    piece : (s,) int64, of each point. size : the diameter.
+
+@dataclass(frozen=True, eq=False)
+class _Gaps:
+    """Where the pieces of a surface come near each other.
+
+    Attributes
+    ----------
+    points : SurfacePoints
+    piece : (s,) int64
+        Of each point.
+    ends : (k, 2) int64
+        Points of different pieces, see ``near_pairs``.
+    distance : (k,) float64
+    pieces : (g, 2) int64
+        Every two pieces that come near each other, once.
+    row : (k,) int64
+        The two pieces that the ends lie in.
+    least : (g,) float64
+        Distance between two pieces.
     """
-    count = int(piece.max()) + 1
-    pairs, distance = near_pairs(points, piece, near)
-    cells, cell = distinct_pairs(*np.sort(piece[pairs], axis=1).T)
-    least = np.full(len(cells), np.inf)
-    np.minimum.at(least, cell, distance)
-    touching = least <= TOUCH * size
-    _, body = components(count, *cells[touching].T)
-    joins = touching | (body[cells[:, 0]] != body[cells[:, 1]])
-    chosen = pairs[joins[cell] & (distance <= least[cell] + SLACK * size)]
-    vertices, link = distinct_pairs(*np.sort(points.vertex[chosen], axis=1).T)
-    return chosen[last_of_each(link, -arange(len(link)), count=len(vertices))]
+
+    points: SurfacePoints
+    piece: np.ndarray
+    ends: np.ndarray
+    distance: np.ndarray
+    pieces: np.ndarray
+    row: np.ndarray
+    least: np.ndarray
+
+    @classmethod
+    def of(cls, points: SurfacePoints, piece_of_face: np.ndarray, near: float) -> _Gaps:
+        """Look as far as ``near``, a length. piece_of_face : (m,) int64."""
+        piece = piece_of_face[points.face]
+        ends, distance = near_pairs(points, piece, near)
+        pieces, row = distinct_pairs(*np.sort(piece[ends], axis=1).T)
+        least = np.full(len(pieces), np.inf)
+        np.minimum.at(least, row, distance)
+        return cls(points, piece, ends, distance, pieces, row, least)
+
+    @property
+    def n_pieces(self) -> int:
+        """Largest number of a piece, and one."""
+        return int(self.piece.max()) + 1
+
+    def links(self, size: float, thing: np.ndarray | None = None) -> Bridges:
+        """Link pieces that touch, and those that are near and hang together by nothing else.
+
+        size : the diameter. thing : (pieces,) int64, if pieces of different things are not to be linked.
+        """
+        first, second = self.pieces.T
+        within = np.ones(len(first), bool) if thing is None else thing[first] == thing[second]
+        touching = within & (self.least <= TOUCH * size)
+        _, body = components(self.n_pieces, first[touching], second[touching])
+        joins = touching | within & (body[first] != body[second])
+        chosen = self.ends[joins[self.row] & (self.distance <= self.least[self.row] + SLACK * size)]
+        vertices, link = distinct_pairs(*np.sort(self.points.vertex[chosen], axis=1).T)
+        found = chosen[last_of_each(link, -arange(len(link)), count=len(vertices))]
+        return Bridges(self.points.vertex[found], self.points.face[found])
+
+    def things(self) -> tuple[np.ndarray, np.ndarray]:
+        """Join pieces that are near each other beside what they form together.
+
+        Returns the thing of each piece, (pieces,) int64, and the lengths of things, (things,) float64.
+        """
+        points, count = self.points, self.n_pieces
+        place = points.position - points.position.mean(axis=0)
+        moments = sums_by(self.piece, points.area[:, None] * np.column_stack(
+            [np.ones(len(place)), place, (place**2).sum(axis=1)]), count)
+        thing = arange(count)
+        while True:
+            first, second = thing[self.pieces].T
+            near = self.least <= NEAR_OF_THINGS * _lengths(moments[first] + moments[second])
+            count, joined = components(len(moments), first[near], second[near])
+            if count == len(moments):
+                return thing, _lengths(moments)
+            moments, thing = sums_by(joined, moments, count), joined[thing]
+
+    def longest_thing(self) -> float:
+        """The length of the longest of the things."""
+        return float(self.things()[1].max())
+
+
+def _lengths(moments: np.ndarray) -> np.ndarray:
+    """Diameters, (k,) float64, of things by area, area times place and area times squared place, (k, 5)."""
+    area, *place, square = moments.T
+    area = np.maximum(area, np.finfo(float).tiny)
+    return np.sqrt(12 * np.maximum(square / area - ((np.stack(place) / area) ** 2).sum(axis=0), 0.0))

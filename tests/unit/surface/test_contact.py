@@ -8,7 +8,7 @@ import shapes
 from core import TriMesh
 from core.arrays.components import components
 from core.surface import contact
-from core.surface.contact import FEW_LABELS, MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
+from core.surface.contact import FEW_LABELS, MAX_POINTS, NEAR, SurfacePoints, bridges, diameter, near_pairs
 
 
 def points_at(position):
@@ -64,6 +64,42 @@ def test_boxes_are_linked_where_they_come_near_or_where_all_are_to_hang_together
         np.testing.assert_allclose(mesh.vertices[found.vertices][..., 0].min(axis=1), 1)  # on the sides that face
 
 
+def chests(count, gap, lid=0.02):
+    """A row of boxes, each with a lid that floats over it; gaps in units of their size."""
+    return shapes.together(*(shapes.moved(shapes.subdivide(shapes.box((1, 1, height))), (k * (1 + gap), 0, z))
+                             for k in range(count) for height, z in ((0.7, 0), (0.3, 0.7 + lid))))
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_things_of_a_scene_are_linked_within_and_not_to_each_other(scale):
+    """They are nearer to each other than NEAR of the row's length."""
+    row = chests(30, 0.4)
+    mesh = TriMesh(scale * row.vertices, row.faces)
+    points = SurfacePoints.of(mesh, mesh.face_components[1])
+    assert NEAR * diameter(points.position, points.area) > 2 * 0.4 * scale
+    piece = mesh.face_components[1]
+    found = bridges(mesh)
+    assert {tuple(pair) for pair in np.sort(piece[found.faces], axis=1).tolist()} == {
+        (2 * k, 2 * k + 1) for k in range(30)}
+    count, _ = components(60, *piece[bridges(mesh, connected=True).faces].T)
+    assert count == 1
+
+
+def test_many_things_of_a_scene_are_not_linked_to_each_other():
+    row = TriMesh(*chests(contact.CROWD, 0.4))
+    count, _ = components(2 * contact.CROWD, *row.face_components[1][bridges(row).faces].T)
+    assert count == contact.CROWD
+
+
+@pytest.mark.parametrize("shape", [
+    chests(4, 0.05), shapes.together(chests(30, 0.4), shapes.moved(shapes.box((41.6, 1, 0.1)), (0, 0, -0.1)))],
+    ids=["few and near", "on a plank"])
+def test_what_is_no_scene_is_one_body(shape):
+    mesh = TriMesh(*shape)
+    count, piece = mesh.face_components
+    assert components(count, *piece[bridges(mesh).faces].T)[0] == 1
+
+
 def test_one_piece_needs_no_bridge():
     assert bridges(TriMesh(*shapes.tube_tree(2, step=0.2)), connected=True).vertices.shape == (0, 2)
 
@@ -107,13 +143,13 @@ def test_of_a_crowd_that_hangs_together_what_touches_is_linked_as_before(monkeyp
     """A chain of small triangles; with one far off, which no touch joins, and without."""
     rng = np.random.default_rng(0)
     corners = np.linspace((0, 0, 0), (1, 0, 0), 400)[:, None] + 0.003 * rng.normal(size=(400, 3, 3))
-    searched, links = [], contact._links
+    searched, search = [], contact.near_pairs
 
-    def counted(points, piece, near, size):
-        searched.append(near)
-        return links(points, piece, near, size)
+    def counted(points, label, radius):
+        searched.append(radius)
+        return search(points, label, radius)
 
-    monkeypatch.setattr(contact, "_links", counted)
+    monkeypatch.setattr(contact, "near_pairs", counted)
     for far in (0.0, 2.0):
         corners[-1] += (far, 0, 0)
         mesh = TriMesh(corners.reshape(-1, 3), np.arange(1200).reshape(-1, 3))
@@ -139,5 +175,6 @@ def test_of_very_many_links_those_farther_off_join_only_what_does_not_hang_toget
     assert components(60, *every.faces.T)[0] == components(60, *some.faces.T)[0] == 1
     assert len(some.faces) < 0.3 * len(every.faces)
     assert (some.faces[:, 0] != some.faces[:, 1]).all()
+    monkeypatch.setattr(contact, "LONGEST", 0.0)  # as if it were no scene
     near = bridges(mesh).faces  # what is found first stays
     assert some.faces[: len(near)].tolist() == near.tolist()
