@@ -23,9 +23,10 @@ from ..mesh.triangles import TriMesh
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
 # how much farther from each other than the nearest two points of two pieces other points may be to be linked.
 TOUCH, NEAR, SLACK = 0.01, 0.03, 0.005
-# A surface is a scene of several things if none of them is as long as this share of it. Things are of pieces that come
-# nearer to each other than a share of the diameter of both together; of a scene so many points are taken.
-LONGEST, NEAR_OF_THINGS, POINTS_OF_SCENE = 1 / 3, 0.06, 80_000
+# A surface is a scene of several things if none of them is as long as this share of it, and if there are no more than
+# so many: confetti is no scene. Things are of pieces that come nearer to each other than a share of the diameter of
+# both together; of a scene so many points are taken.
+LONGEST, MOST_THINGS, NEAR_OF_THINGS, POINTS_OF_SCENE = 1 / 3, 2_000, 0.06, 80_000
 CROWD = 1_000  # pieces; of so many, those that touch are looked for first
 MAX_POINTS = 8_000  # of a denser surface so many are taken
 # Pairs of points near each other that are looked at one by one, and how many more for each label that would be
@@ -210,27 +211,28 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     points = SurfacePoints.of(mesh, piece)
     size = diameter(points.position, points.area)
     near = NEAR * size
-    group, kept = arange(count), Bridges.none()
-    if count > CROWD:  # which mostly hang together by what touches, and all that is near would be many times as much
-        gaps = _Gaps.of(points, piece, (TOUCH + SLACK) * size)
-        if not connected and (length := gaps.longest_thing()) < LONGEST * size:
-            return _within_things(mesh, length)
+    # A crowd mostly hangs together by what touches, and all that is near would be many times as much.
+    gaps = _Gaps.of(points, piece, (TOUCH + SLACK) * size if count > CROWD else near)
+    if not connected:
+        _, lengths = gaps.things()
+        if len(lengths) <= MOST_THINGS and lengths.max() < LONGEST * size:
+            return _within_things(mesh, lengths.max())
+    if count > CROWD:
         links = gaps.links(size)
         if components(count, *piece[links.faces].T)[0] == 1:
             return links
+        gaps = _Gaps.of(points, piece, near)
+    group, kept = piece, Bridges.none()
     while True:
-        gaps = _Gaps.of(points, group[piece], near)
-        if not connected and (length := gaps.longest_thing()) < LONGEST * size:
-            return _within_things(mesh, length)
         found = gaps.links(size)
         links = kept.with_more(found.vertices, found.faces)
         n_bodies, body = components(count, *piece[links.faces].T)
         if n_bodies == 1 or not connected:
             return links
         if len(found.faces) > MANY_LINKS:
-            group, kept = body, links
+            group, kept = body[piece], links
         near *= 2
-        points = SurfacePoints.of(mesh, piece, FAR_POINTS)
+        gaps = _Gaps.of(SurfacePoints.of(mesh, piece, FAR_POINTS), group, near)
 
 
 def _within_things(mesh: TriMesh, length: float) -> Bridges:
@@ -317,10 +319,6 @@ class _Gaps:
             if count == len(moments):
                 return thing, _lengths(moments)
             moments, thing = sums_by(joined, moments, count), joined[thing]
-
-    def longest_thing(self) -> float:
-        """The length of the longest of the things."""
-        return float(self.things()[1].max())
 
 
 def _lengths(moments: np.ndarray) -> np.ndarray:
