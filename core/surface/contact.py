@@ -182,9 +182,9 @@ class Bridges:
         """No links."""
         return cls(np.empty((0, 2), np.int64), np.empty((0, 2), np.int64))
 
-    def with_more(self, vertices: np.ndarray, faces: np.ndarray) -> Bridges:
-        """These links and others after them, (k, 2) int64 each."""
-        return Bridges(np.concatenate([self.vertices, vertices]), np.concatenate([self.faces, faces]))
+    def with_more(self, others: Bridges) -> Bridges:
+        """These links and others after them."""
+        return Bridges(np.concatenate([self.vertices, others.vertices]), np.concatenate([self.faces, others.faces]))
 
 
 def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
@@ -225,7 +225,7 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     group, kept = piece, Bridges.none()
     while True:
         found = gaps.links(size)
-        links = kept.with_more(found.vertices, found.faces)
+        links = kept.with_more(found)
         n_bodies, body = components(count, *piece[links.faces].T)
         if n_bodies == 1 or not connected:
             return links

@@ -16,6 +16,7 @@ from ...core.result.decomposition import Decomposition
 from ...core.result.numbering import inherited
 from .. import bridge, property_updates, store
 from ..bridge import Shape
+from ..changes import pins
 from ..errors import SceneError
 from ..outputs import face_attribute
 from ..reading import mesh_arrays
@@ -162,7 +163,6 @@ def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposit
     touching = bridge.face_graph(obj, shape)[0].with_contacts(decomposition.contacts)
     _, piece = touching.regions(np.where(former.pinned > 0, former.pinned, -1))
     number, pinned, (center, area) = former.number.copy(), former.pinned.copy(), mesh_arrays.face_middles(mesh)
-    taken = {*number.tolist(), *(entry.number for entry in (*mesh.reeb_parts.names, *mesh.reeb_parts.parts))}
     for part in mesh.reeb_parts.parts:
         there = np.flatnonzero(former.pinned == part.number)
         pieces, place = np.unique(piece[there], return_inverse=True)
@@ -171,9 +171,8 @@ def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposit
         size, middle = middles_of_each(place, center[there], area[there] + 1e-300, len(pieces))
         stays = int(np.linalg.norm(middle - np.array(part.middle), axis=1).argmin())
         for index in set(np.flatnonzero(2 * size > size[stays]).tolist()) - {stays}:
-            new = next(free for free in range(1, len(taken) + 2) if free not in taken)
+            new = pins.free_number(mesh, before, np.unique(number).tolist())
             number[there[place == index]] = pinned[there[place == index]] = new
-            taken.add(new)
     return _Former(number, pinned)
 
 
