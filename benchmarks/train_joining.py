@@ -130,7 +130,7 @@ def prepare(name: str, vertices: np.ndarray, faces: np.ndarray, human: np.ndarra
     """Everything that does not depend on the models of joining."""
     parameters, found = Parameters(), []
     working, owner = working_mesh(vertices, faces)
-    for component in bodies(working, True, parameters.loose_part):
+    for component in bodies(working, True, parameters.loose_part).decomposed:
         result = decompose_component(component, parameters, Stopwatch(None))
         parts = fine_parts(component.mesh, result.face_candidate, result.candidates.hierarchy, result.field.normalized)
         shares, polygon = [], owner[component.polygon]

@@ -140,12 +140,12 @@ def _decomposed(
     with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
         working = repair(given)
         done_of_mesh(0.9)
-        chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
+        found = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
     # Planes of symmetry follow from the mesh alone, and are not asked for before the end.
-    mirrors = meanwhile(_mirrors, working, chosen, given.n_polygons, parameters)
-    results = _on_bodies(chosen, parameters, watch, model, join_model)
+    mirrors = meanwhile(_mirrors, working, found.decomposed, given.n_polygons, parameters)
+    results = _on_bodies(found.decomposed, parameters, watch, model, join_model)
     with watch.stage("parts", 1.0):
-        result = assemble(given, working, results, mirrors(), parameters, watch.seconds, hint)
+        result = assemble(given, working, found, results, mirrors(), parameters, watch.seconds, hint)
         result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, renumbered
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways
@@ -28,7 +29,7 @@ from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import LEAST_WEIGHT
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.preparation import WorkingMesh
+from ..surface.preparation import Bodies, WorkingMesh
 from ..symmetry.mirrors import Mirror
 from .bodies import contacts_and_links
 from .component_results import ComponentResult, FoundCandidates
@@ -42,6 +43,7 @@ from .within_faces import symmetric_within_faces
 def assemble(
     given: PolygonMesh,
     working: WorkingMesh,
+    bodies: Bodies,
     results: list[ComponentResult],
     mirrors: list[Mirror],
     parameters: Parameters,
@@ -56,8 +58,10 @@ def assemble(
         The caller's mesh.
     working : WorkingMesh
         Repaired copy of the caller's mesh.
+    bodies : Bodies
+        Of the copy.
     results : list of ComponentResult
-        One for each component that was decomposed; every other component becomes one candidate.
+        One for each body that was decomposed; every piece of the others becomes one candidate.
     mirrors : list of Mirror
         Planes in which the parts are to be symmetric, as ``find_mirrors`` finds them.
     parameters : Parameters
@@ -70,11 +74,11 @@ def assemble(
     -------
     decomposition : Decomposition
     """
-    candidates = _face_candidates(given, working, results, mirrors, parameters, hint)
+    candidates = _face_candidates(given, working, bodies, results, mirrors, parameters, hint)
     tables = tables_of(given, working, candidates)
-    values, notes = _vertex_field(given, working, results, parameters)
+    values, notes = _vertex_field(given, working, bodies, results, parameters)
     nodes, points = _graph_candidates(results, candidates.label)
-    n_contacts = sum(len(r.contacts) for r in results)  # all others are links
+    n_contacts = len(bodies.contacts) + sum(len(r.contacts) for r in results)  # all others are links
     first_shown = candidates.hierarchy.parts_at(Parameters().detail)[candidates.label]
     mirror = Mirror.joined([mirror.parting(first_shown) for mirror in mirrors])
     return Decomposition(
@@ -88,15 +92,16 @@ def assemble(
 
 
 def _face_candidates(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], mirrors: list[Mirror],
+    given: PolygonMesh, working: WorkingMesh, bodies: Bodies, results: list[ComponentResult], mirrors: list[Mirror],
     parameters: Parameters, hint: np.ndarray,
 ) -> FaceCandidates:
     """The candidates of the caller's faces, after all that follows cutting. hint : (p,) int64 or empty."""
     coarse = [mirror for mirror in mirrors if mirror.within]
     found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
     graph = face_graph_of(given, working)
-    found = found.with_rest(working, results)
-    label, contacts = _voted(given, graph, found, results, parameters), contacts_and_links(working, results, graph)
+    found = found.with_rest(working, bodies)
+    label = _voted(given, graph, found, results, parameters)
+    contacts = contacts_and_links(working, bodies, results, graph)
     candidates = _with_loose_apart(FaceCandidates(graph, contacts, label, found.hierarchy), working)
     if parameters.pieces == TOGETHER:
         candidates = joined_swarms(candidates, working.mesh, working.polygon)
@@ -279,7 +284,7 @@ def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceC
 
 
 def _vertex_field(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], parameters: Parameters
+    given: PolygonMesh, working: WorkingMesh, bodies: Bodies, results: list[ComponentResult], parameters: Parameters
 ) -> tuple[np.ndarray, tuple[Sentence, ...]]:
     """Normalized field at the caller's vertices, (n,) float64, and notes about pieces and bodies."""
     values = np.full(given.triangles.n_vertices, np.nan)
@@ -291,10 +296,11 @@ def _vertex_field(
     n_pieces, piece = working.mesh.face_components
     n_flat = sum(not r.field.values.any() for r in results)
     n_cut = sum(len(np.unique(piece[r.component.faces])) for r in results)
+    n_small = components(n_pieces, *working.polygon_piece[bodies.contacts].T)[0] - n_cut
     notes = _body_notes if parameters.pieces == TOGETHER else _piece_notes
     if n_pieces == 1:
         return values, (Sentence("Nothing protrudes: the surface is even."),) if n_flat else ()
-    return values, tuple(notes(n_cut, n_pieces - n_cut, len(results), n_flat))
+    return values, tuple(notes(n_cut, n_small, len(results), n_flat))
 
 
 def _body_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterator[Sentence]:
@@ -307,7 +313,7 @@ def _body_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterato
         yield Sentence("{n} pieces form {bodies} bodies; what touches is decomposed together.",
                        n=n_cut, bodies=n_bodies)
     if n_small:
-        yield Sentence("{n} small {n:piece is one part|pieces are one part each}.", n=n_small)
+        yield Sentence("{n} small {n:body is one part|bodies are one part each}.", n=n_small)
     if n_flat:
         yield Sentence("{n} of the bodies {n:is|are} so even that nothing protrudes.", n=n_flat)
 

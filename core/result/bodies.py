@@ -9,18 +9,22 @@ from ..arrays.components import components
 from ..arrays.nearest import nearest_larger, nearest_to_middle
 from ..arrays.vectors import middles_of_each
 from ..mesh.face_graph import FaceGraph
-from ..surface.preparation import WorkingMesh
+from ..surface.preparation import Bodies, WorkingMesh
 from .component_results import ComponentResult
 
 
-def contacts_and_links(working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph) -> np.ndarray:
+def contacts_and_links(
+    working: WorkingMesh, bodies: Bodies, results: list[ComponentResult], graph: FaceGraph
+) -> np.ndarray:
     """Find what joins faces that share no edge, so that all of them hang together.
 
     Parameters
     ----------
     working : WorkingMesh
+    bodies : Bodies
+        Of it.
     results : list of ComponentResult
-        One for each component that was decomposed, with contacts.
+        One for each body that was decomposed, with contacts.
     graph : FaceGraph
         Of the caller's faces.
 
@@ -30,7 +34,7 @@ def contacts_and_links(working: WorkingMesh, results: list[ComponentResult], gra
         The k contacts, faces of one body that touch; then a face of each body but the largest, and one of the nearest
         of the larger bodies.
     """
-    contacts = np.concatenate([np.empty((0, 2), np.int64), *(r.component.polygon[r.contacts] for r in results)])
+    contacts = np.concatenate([bodies.contacts, *(r.component.polygon[r.contacts] for r in results)])
     count, piece = graph.pieces
     joined, of_piece = components(count, *piece[contacts].T)
     if joined == 1:

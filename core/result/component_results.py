@@ -10,13 +10,13 @@ from itertools import accumulate
 
 import numpy as np
 
-from ..arrays.indexing import renumbered
-from ..cuts.hierarchy import LAST, Candidates, Hierarchy
+from ..arrays.indexing import place_among, renumbered
+from ..cuts.hierarchy import LAST, Candidates, Dendrogram, Hierarchy
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
 from ..mesh.labels import majority
-from ..surface.preparation import Component, WorkingMesh
+from ..surface.preparation import Bodies, Component, WorkingMesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,19 +88,26 @@ class FoundCandidates:
         return cls(np.concatenate([nothing[0], *face]), np.concatenate([nothing[0], *label]),
                    np.concatenate([nothing[1], *area]), Hierarchy.join([r.candidates.hierarchy for r in results]))
 
-    def with_rest(self, working: WorkingMesh, results: list[ComponentResult]) -> FoundCandidates:
-        """These, and a candidate for each component that was not decomposed; in the end all are one part."""
+    def with_rest(self, working: WorkingMesh, bodies: Bodies) -> FoundCandidates:
+        """These, and a candidate for each piece of the bodies that were not decomposed.
+
+        What is one body merges first; in the end all are one part.
+        """
         rest = np.ones(working.mesh.n_faces, bool)
-        for r in results:
-            rest[r.component.faces] = False
+        for component in bodies.decomposed:
+            rest[component.faces] = False
         if not rest.any():
             return replace(self, hierarchy=merged_at_last(self.hierarchy))
-        names, numbers = renumbered(working.mesh.face_components[1][rest])
+        count, piece = working.mesh.face_components
+        names, numbers = renumbered(piece[rest])
         area = working.mesh.face_weight[rest]
+        touching = place_among(names, count)[working.polygon_piece[bodies.contacts]]
+        merges = touching[Dendrogram.of(len(names), touching).rows]
+        small = Hierarchy.of(len(names), merges, np.zeros(len(merges)))
         return FoundCandidates(np.concatenate([self.face, working.polygon[rest]]),
                                np.concatenate([self.label, self.hierarchy.n_candidates + numbers]),
                                np.concatenate([self.area, area]),
-                               merged_at_last(Hierarchy.join([self.hierarchy, Hierarchy.of(len(names), [], [])])))
+                               merged_at_last(Hierarchy.join([self.hierarchy, small])))
 
 
 def firsts(counts: list[int]) -> list[int]:

@@ -9,13 +9,14 @@ belong, so that labels found on the copy can be brought back.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import frozen, inverse, place_among, renumbered, stable_order, taken
 from ..arrays.int64 import arange, cumsum, full
-from ..arrays.pairs import distinct_pairs
+from ..arrays.pairs import distinct_pairs, pair_keys
 from ..arrays.ties import TIE
 from ..arrays.vectors import distances_between
 from ..mesh.borders import joined_borders
@@ -66,6 +67,13 @@ class WorkingMesh:
     joined: np.ndarray
     notes: tuple[Sentence, ...] = ()
     vertex_rank: np.ndarray | None = None
+
+    @cached_property
+    def polygon_piece(self) -> np.ndarray:
+        """(p,) int64, the connected piece of the mesh in which each of the caller's faces lies; -1 for none."""
+        piece = full(int(self.polygon.max()) + 1, -1)
+        piece[self.polygon] = self.mesh.face_components[1]
+        return piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +133,23 @@ class Component:
                    bridges(fine, connected))
 
 
-def bodies(working: WorkingMesh, together: bool, loose_part: float) -> list[Component]:
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """The bodies of a working mesh: pieces that touch, or nearly so.
+
+    Attributes
+    ----------
+    decomposed : list of Component
+        Those that are large enough to have parts.
+    contacts : (k, 2) int64
+        Of the caller's faces, where two pieces of another body come near each other: one place for each such two.
+    """
+
+    decomposed: list[Component]
+    contacts: np.ndarray
+
+
+def bodies(working: WorkingMesh, together: bool, loose_part: float) -> Bodies:
     """Cut the working mesh into what is decomposed as one: bodies of pieces that touch, or single pieces.
 
     Parameters
@@ -138,21 +162,22 @@ def bodies(working: WorkingMesh, together: bool, loose_part: float) -> list[Comp
 
     Returns
     -------
-    components : list of Component
-        What is in none of them is too small to have parts.
+    bodies : Bodies
     """
     count, piece = working.mesh.face_components
-    if not together or count == 1:
-        chosen = worth_cutting(working, piece, loose_part)
-        return [Component.of(working, np.flatnonzero(piece == label), n_bodies=len(chosen)) for label in chosen]
-    every = Component.of(working, arange(working.mesh.n_faces), connected=False)
-    at = np.empty(int(working.polygon.max()) + 1, np.int64)
-    at[working.polygon] = piece
-    n_bodies, body = components(count, *at[every.polygon[every.bridges.faces]].T)
-    if n_bodies == 1:
-        return [every]
+    body, contacts = arange(count), np.empty((0, 2), np.int64)
+    if together and count > 1:
+        every = Component.of(working, arange(working.mesh.n_faces), connected=False)
+        contacts = every.polygon[every.bridges.faces]
+        n_bodies, body = components(count, *working.polygon_piece[contacts].T)
+        if n_bodies == 1:
+            return Bodies([every], contacts[:0])
     chosen = worth_cutting(working, body[piece], loose_part)
-    return [Component.of(working, np.flatnonzero(body[piece] == label), n_bodies=len(chosen)) for label in chosen]
+    touching = working.polygon_piece[contacts]
+    contacts, touching = (pairs[~np.isin(body[touching[:, 0]], chosen)] for pairs in (contacts, touching))
+    first = np.unique(pair_keys(np.sort(touching, axis=1), count), return_index=True)[1]
+    return Bodies([Component.of(working, np.flatnonzero(body[piece] == label), n_bodies=len(chosen))
+                   for label in chosen], contacts[first])
 
 
 def worth_cutting(working: WorkingMesh, label: np.ndarray, loose_part: float) -> list[int]:

@@ -263,7 +263,7 @@ def test_a_ribbon_has_few_base_vertices():
 def test_of_very_many_bodies_of_few_faces_none_is_decomposed(count, wanted):
     places = np.stack(np.meshgrid(*3 * [np.arange(5)]), axis=-1).reshape(-1, 3)[:count]
     shape = shapes.together(*(shapes.moved(shapes.tetrahedron(), 50.0 * place) for place in places))
-    assert len(bodies(repair(PolygonMesh.of(*shape)), True, 0.001)) == wanted
+    assert len(bodies(repair(PolygonMesh.of(*shape)), True, 0.001).decomposed) == wanted
     result = decompose(*shape, parameters=Parameters(detail=1.0))
     assert result.parts(n_parts=count).count == count
 
@@ -271,7 +271,7 @@ def test_of_very_many_bodies_of_few_faces_none_is_decomposed(count, wanted):
 def test_larger_bodies_among_many_small_ones_are_decomposed():
     small = [shapes.moved(shapes.tetrahedron(), (90.0 * i, 0, 0)) for i in range(60)]
     shape = shapes.together(shapes.moved(shapes.icosphere(2), (0, 500, 0)), *small)
-    chosen = bodies(repair(PolygonMesh.of(*shape)), True, 0.001)
+    chosen = bodies(repair(PolygonMesh.of(*shape)), True, 0.001).decomposed
     sizes = [len(body.faces) for body in chosen]  # some of the small ones lie so near each other that they are one
     assert 320 in sizes
     assert 4 not in sizes

@@ -442,7 +442,7 @@ def test_a_table_of_loose_boxes_is_one_body_of_a_top_and_four_legs():
 
 def test_small_loose_parts_are_one_part_each(preset):
     shape = shapes.together(shapes.tube_tree(), *(shapes.moved(shapes.icosphere(1, 0.05), (3, k, 0)) for k in range(3)))
-    for parameters, note in ((preset, "3 small pieces are one part each."), (separate(preset), "3 small ones")):
+    for parameters, note in ((preset, "3 small bodies are one part each."), (separate(preset), "3 small ones")):
         result = sound_triangles(shape, parameters)
         labels = result.parts(1.0).labels[len(shapes.tube_tree().faces):].reshape(3, 80)
         assert (labels == labels[:, :1]).all()
@@ -515,7 +515,7 @@ def test_bag_of_a_thousand_triangles(preset):
 
 def test_loose_parts_of_few_faces_are_one_part_each(preset):
     # However large: a bag of thirty triangles is no thirty decompositions.
-    for parameters, note in ((preset, "30 small pieces"), (separate(preset), "30 small ones")):
+    for parameters, note in ((preset, "30 small bodies"), (separate(preset), "30 small ones")):
         result = sound_triangles(shapes.crumbs(30), parameters)
         assert result.parts(1.0).count == 30
         assert noted(result, note)

@@ -770,7 +770,7 @@ TEXTS = {
         "{n} Stücke, die sich (fast) berühren, bilden einen Körper; mit Stücke: Getrennt wird jedes für sich zerlegt.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} Stücke bilden {bodies} Körper; was sich berührt, wird gemeinsam zerlegt.",
-    "{n} small {n:piece is one part|pieces are one part each}.": "Kleine Stücke, die je ein einziges Teil sind: {n}.",
+    "{n} small {n:body is one part|bodies are one part each}.": "Kleine Körper, die je ein einziges Teil sind: {n}.",
     "{n} of the bodies {n:is|are} so even that nothing protrudes.":
         "Körper, die so gleichmäßig sind, dass nichts vorsteht: {n}.",
     "{n} loose parts are decomposed each on its own.": "{n} lose Teile werden jedes für sich zerlegt.",

@@ -707,7 +707,7 @@ TEXTS = {
         "{n} 个相互接触或几乎接触的块构成一个整体；“块：各自”会分别分解每一块。",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} 个块构成 {bodies} 个整体；相互接触的块一起分解。",
-    "{n} small {n:piece is one part|pieces are one part each}.": "{n} 个小块各为一个部件。",
+    "{n} small {n:body is one part|bodies are one part each}.": "{n} 个小整体各为一个部件。",
     "{n} of the bodies {n:is|are} so even that nothing protrudes.": "其中 {n} 个整体过于均匀，没有突出部分。",
     "{n} loose parts are decomposed each on its own.": "{n} 个松散块各自单独分解。",
     "{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} part each.":

@@ -126,7 +126,7 @@ def test_the_field_of_a_cylinder_does_not_depend_on_its_sides(sides):
                            np.stack([k + sides, after + sides, np.full(sides, 2 * sides + 1)], axis=1)])
     vertices = np.concatenate([low, high, [(0, 0, -2.0), (0, 0, 2.0)]])
     given = sorted_by_place(PolygonMesh.of(vertices, np.concatenate([wall, caps])))[0]
-    (body,) = bodies(repair(given), True, 0.01)
+    (body,) = bodies(repair(given), True, 0.01).decomposed
     field = protrusion_field(Pyramid(body.mesh), 0.005, True).normalized
     x, y, z = (body.mesh.vertices - (body.mesh.vertices.max(axis=0) + body.mesh.vertices.min(axis=0)) / 2).T
     high, out = np.abs(z) / np.abs(z).max(), np.hypot(x, y) / np.hypot(x, y).max()

@@ -222,7 +222,7 @@ def test_needles_do_not_multiply_past_bounds():
 def test_a_body_alone_has_the_whole_budget():
     """It had half of what its constant said, once several bodies were to share less than that."""
     working = repaired(shapes.box((100, 1, 0.3)))
-    (body,) = bodies(working, True, 0.01)
+    (body,) = bodies(working, True, 0.01).decomposed
     fine, _ = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
     assert body.mesh.n_faces == fine.n_faces
 

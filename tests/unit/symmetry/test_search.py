@@ -16,7 +16,7 @@ from core.symmetry.small_faces import SmallFaces
 
 def small_faces(vertices, faces):
     """Those of a mesh of one piece, its long edges split."""
-    (body,) = bodies(repair(PolygonMesh.of(vertices, faces)), True, 0.01)
+    (body,) = bodies(repair(PolygonMesh.of(vertices, faces)), True, 0.01).decomposed
     return SmallFaces(body.mesh, body.polygon, len(faces))
 
 

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from results import same_partition
 
 from core import decompose
 
@@ -19,3 +20,21 @@ def test_things_that_stand_in_a_row_are_parts_of_their_own(gap):
     for part in range(label.max() + 1):
         assert len(set(thing[label == part])) == 1
     assert result.parts(detail=0).labels.max() == 0
+
+
+def test_a_small_thing_of_several_pieces_is_one_part():
+    """Each of its pieces was one, of things that are below 1 % of the area."""
+    things = []
+    for k in range(121):
+        foot, top = shapes.box((1, 1 + 0.01 * k, 0.3)), shapes.box((0.4, 0.4, 1.5))
+        things.append(shapes.together(foot, shapes.moved(top, (0, 0, 0.3 + 0.001 * (k % 3)))))
+    things = [shapes.moved(thing, (4 * (k % 11), 4 * (k // 11), 0)) for k, thing in enumerate(things)]
+    thing = np.repeat(np.arange(len(things)), [len(shape.faces) for shape in things])
+    result = decompose(*shapes.together(*things))
+    assert same_partition(result.parts().labels, thing)
+    assert "121 small bodies are one part each." in map(str, result.notes)
+    assert result.parts(detail=1).labels.max() + 1 == 2 * len(things)
+    assert result.parts(detail=0).labels.max() == 0
+    contacts = result.contacts[:len(result.contacts) - len(result.links)]
+    assert thing[contacts[:, 0]].tolist() == thing[contacts[:, 1]].tolist()
+    assert sorted(thing[contacts[:, 0]]) == list(range(len(things)))
