@@ -23,10 +23,10 @@ from ..mesh.triangles import TriMesh
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
 # how much farther from each other than the nearest two points of two pieces other points may be to be linked.
 TOUCH, NEAR, SLACK = 0.01, 0.03, 0.005
-# A surface is a scene of several things if none of them is as long as this share of it, and if there are no more than
-# so many: confetti is no scene. Things are of pieces that come nearer to each other than a share of the diameter of
-# both together; of a scene so many points are taken.
-LONGEST, MOST_THINGS, NEAR_OF_THINGS, POINTS_OF_SCENE = 1 / 3, 2_000, 0.06, 80_000
+# A surface is a scene of several things if none of them is as long as this share of it, and if they have so many faces,
+# the mean: the leaves of a hedge are no scene. Things are of pieces that come nearer to each other than a share of the
+# diameter of both together; of a scene so many points are taken.
+LONGEST, FACES_OF_A_THING, NEAR_OF_THINGS, POINTS_OF_SCENE = 1 / 3, 10, 0.06, 80_000
 CROWD = 1_000  # pieces; of so many, those that touch are looked for first
 MAX_POINTS = 8_000  # of a denser surface so many are taken
 # Pairs of points near each other that are looked at one by one, and how many more for each label that would be
@@ -187,7 +187,7 @@ class Bridges:
         return Bridges(np.concatenate([self.vertices, others.vertices]), np.concatenate([self.faces, others.faces]))
 
 
-def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
+def bridges(mesh: TriMesh, connected: bool = False, n_faces: int | None = None) -> Bridges:
     """Link the pieces of a surface where they come nearest to each other.
 
     Pieces that touch are linked; a piece that touches none is linked to those that are near. Without ``connected``,
@@ -199,6 +199,8 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
         Every vertex has a face.
     connected : bool
         Whether to look farther and farther until all pieces hang together.
+    n_faces : int, optional
+        Number of its faces before long edges were split.
 
     Returns
     -------
@@ -215,7 +217,7 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     gaps = _Gaps.of(points, piece, (TOUCH + SLACK) * size if count > CROWD else near)
     if not connected:
         _, lengths = gaps.things()
-        if len(lengths) <= MOST_THINGS and lengths.max() < LONGEST * size:
+        if (n_faces or mesh.n_faces) >= FACES_OF_A_THING * len(lengths) and lengths.max() < LONGEST * size:
             return _within_things(mesh, lengths.max())
     if count > CROWD:
         links = gaps.links(size)

@@ -130,7 +130,7 @@ class Component:
         fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area), MIN_BUDGET // n_bodies)
         added = full(fine.n_vertices - len(source), -1)
         return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
-                   bridges(fine, connected))
+                   bridges(fine, connected, len(faces)))
 
 
 @dataclass(frozen=True, eq=False)

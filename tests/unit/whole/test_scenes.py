@@ -38,3 +38,27 @@ def test_a_small_thing_of_several_pieces_is_one_part():
     contacts = result.contacts[:len(result.contacts) - len(result.links)]
     assert thing[contacts[:, 0]].tolist() == thing[contacts[:, 1]].tolist()
     assert sorted(thing[contacts[:, 0]]) == list(range(len(things)))
+
+
+def test_a_scene_may_have_thousands_of_things():
+    """Of more than two thousand none had a part for itself."""
+    things = [shapes.moved(shapes.box((1, 1 + 0.3 * (k % 5), 1)), (1.5 * (k % 50), 3 * (k // 50), 0))
+              for k in range(2_100)]
+    result = decompose(*shapes.together(*things))
+    assert same_partition(result.parts().labels, np.repeat(np.arange(len(things)), 12))
+
+
+def test_the_leaves_of_a_hedge_are_no_scene():
+    """A thousand cards in a ball, some of which touch, were 887 parts."""
+    rng = np.random.default_rng(0)
+    n, size = 1_000, 0.03
+    middle, along, about = rng.normal(size=(3, n, 3))
+    middle *= 0.5 * rng.random((n, 1)) ** (1 / 3) / np.linalg.norm(middle, axis=1, keepdims=True)
+    along *= size / np.linalg.norm(along, axis=1, keepdims=True)
+    across = np.cross(along, about)
+    across *= size / 2 / np.linalg.norm(across, axis=1, keepdims=True)
+    corners = [middle - along - across, middle + along - across, middle + along + across, middle - along + across]
+    faces = 4 * np.arange(n)[:, None] + np.array([0, 1, 2, 0, 2, 3])
+    result = decompose(np.stack(corners, axis=1).reshape(-1, 3), faces.reshape(-1, 3),
+                       polygon=np.repeat(np.arange(n), 2))
+    assert result.parts().count == 1
