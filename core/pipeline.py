@@ -21,6 +21,7 @@ from .graph.reeb import ReebGraph, ReebTopology, reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
 from .mesh.arguments import hints_of
 from .mesh.copies import find_copies
+from .mesh.grounds import find_standing
 from .mesh.polygons import PolygonMesh
 from .parameters import BERRETTI, TOGETHER, Parameters
 from .progress import Progress, Stopwatch
@@ -28,6 +29,7 @@ from .result.assemble import assemble
 from .result.component_results import ComponentResult
 from .result.decomposition import Decomposition
 from .result.half import of_half
+from .result.on_ground import with_grounds
 from .surface.coarsening import Pyramid
 from .surface.ordering import Ordering, sorted_by_place
 from .surface.orientation import without_copies
@@ -118,7 +120,13 @@ def decompose(
         if copies := find_copies(given):
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
             given, hint = without_copies(given, copies), hint[copies.polygon] if len(hint) else hint
-    if plane is None:
+        standing = find_standing(given) if plane is None and parameters.pieces == TOGETHER else None
+    if standing is not None:
+        left = standing.without_grounds(given)
+        result = with_grounds(decompose(
+            np.ldexp(left.triangles.vertices, given.exponent), left.triangles.faces, parameters, left.polygon, progress,
+            model, join_model, hints=hint[standing.polygon] if len(hint) else None), given, standing)
+    elif plane is None:
         with watch.stage("mesh", 0.4 * MESH_SHARE):
             # From here on the unsorted mesh and its tables are free.
             given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)

@@ -11,6 +11,7 @@ From the components to the result:
 - ``junctions``: boundaries at edges where more than two faces meet
 - ``assemble``: brings all of it back to the caller's faces
 - ``half``: the result of a half model, from that of the whole
+- ``on_ground``: the result of a mesh with grounds, from that of what stands on them
 
 The result itself:
 

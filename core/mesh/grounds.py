@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grounds: flat pieces on which the rest of a mesh stands, such as a floor or a plate.
+
+A floor has most of the area of a mesh, and beside it whatever stands on it is too small to be cut: a person on a floor
+three times as wide was one part. So a ground is left out before anything is measured, and is a part of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays.indexing import frozen, place_among
+from ..arrays.vectors import inner_products, second_moments, weighted_sum
+from .polygons import MIN_FACES, PolygonMesh
+from .triangles import TriMesh, vertex_components
+
+# A ground has at least this share of the area, and what stands on it at least a millionth.
+SHARE, LEAST = 0.2, 1e-6
+# Its points are spread about its plane less than within it by this factor, if it is a sheet, or by the second, if it
+# has no more than this share of the faces: doors and shields are as thick as a slab, but have faces of their own.
+SHEET, SLAB, FEW_FACES = 0.05, 0.4, 0.05
+# Its sides, multiplied, are so many times those of what stands on it.
+WIDER = 3.0
+# What stands on it is so high, at least, in units of the root of its sides, multiplied, and no more than a share of it
+# is on the other side: a table top, on which a vase stands, is no ground, nor is a clock, on which its hands lie.
+HIGH, BELOW = 0.1, 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """What stands on grounds: which of p polygons, and of n vertices.
+
+    Attributes
+    ----------
+    polygon : (k,) int64
+        The polygons that are no ground, rising.
+    vertex : (m,) int64
+        The vertices that belong to these, or to none, rising.
+    """
+
+    polygon: np.ndarray
+    vertex: np.ndarray
+
+    def without_grounds(self, given: PolygonMesh) -> PolygonMesh:
+        """The mesh in which they were found, without grounds: k polygons and m vertices."""
+        number = place_among(self.polygon, given.n_polygons)
+        kept = number[given.polygon] >= 0
+        faces = place_among(self.vertex, given.triangles.n_vertices)[given.triangles.faces[kept]]
+        return replace(given, triangles=TriMesh(given.triangles.vertices[self.vertex], faces),
+                       polygon=frozen(number[given.polygon[kept]], np.int64), n_polygons=len(self.polygon))
+
+
+def find_standing(given: PolygonMesh) -> Standing | None:
+    """Find what stands on grounds: pieces that are flat, and on one side of which nearly all else is.
+
+    Without one that was found there may be another, such as a wall behind what stands on a floor.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+
+    Returns
+    -------
+    standing : Standing or None
+        None if there are no grounds, or if too few polygons would be left.
+    """
+    mesh = given.triangles
+    count, of_vertex = vertex_components(mesh.faces, mesh.n_vertices)
+    piece = of_vertex[mesh.faces[:, 0]]
+    stands = np.bincount(piece, minlength=count) > 0
+    if stands.sum() == 1:
+        return None
+    area = np.bincount(piece, mesh.face_area, count)
+    while (found := _ground(mesh, piece, area, stands)) is not None:
+        stands[found] = False
+    is_standing = np.zeros(given.n_polygons, bool)
+    is_standing[given.polygon[stands[piece]]] = True
+    if is_standing.all() or is_standing.sum() < MIN_FACES:
+        return None
+    vertex = ~mesh.used
+    vertex[mesh.faces[is_standing[given.polygon]]] = True
+    return Standing(np.flatnonzero(is_standing), np.flatnonzero(vertex))
+
+
+def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:
+    """A piece on which all others stand, of those that do so far; piece : (m,) int64. area, stands : (q,)."""
+    least = SHARE * area[stands].sum()
+    for k in np.flatnonzero(stands & (area >= least)).tolist():
+        others = stands.copy()
+        others[k] = False
+        if area[others].sum() > LEAST * area[k] and _is_ground(mesh, piece == k, others[piece]):
+            return k
+    return None
+
+
+def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
+    """Whether some faces are flat and wide, and others stand on one side of them; mine, others : (m,) bool."""
+    weight = np.repeat(mesh.face_area[mine], 3)
+    corners = mesh.corners[mine].reshape(-1, 3)
+    middle = weighted_sum(weight, corners) / weight.sum()
+    spread, axes = np.linalg.eigh(second_moments(corners - middle, weight))
+    flat = SLAB if mine.sum() <= FEW_FACES * (mine | others).sum() else SHEET
+    if spread[0] > flat**2 * spread[1]:
+        return False
+    height, *across = inner_products(corners - middle, axes.T).T
+    its_height, *its_across = inner_products(mesh.corners[others].reshape(-1, 3) - middle, axes.T).T
+    sides, its_sides = (np.ptp(along[0]) * np.ptp(along[1]) for along in (across, its_across))
+    if sides < WIDER * its_sides or np.ptp(its_height) < HIGH * np.sqrt(its_sides):
+        return False
+    its_weight = np.repeat(mesh.face_area[others], 3)
+    beyond = [its_weight[side * its_height > np.abs(height).max()].sum() for side in (-1, 1)]
+    return bool(min(beyond) <= BELOW * its_weight.sum())

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grounds: what stands on a floor or a plinth has the parts that it has alone."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, decompose
+from core.mesh.grounds import find_standing
+from core.mesh.polygons import PolygonMesh
+from core.parameters import SEPARATE
+
+
+def sheet(width, n=1, depth=None):
+    """A square grid of n x n quads in the plane z = 0, or a slab, its top there."""
+    if depth:
+        return shapes.moved(shapes.box((width, width, depth)), (-width / 2, -width / 2, -depth))
+    at = np.linspace(-width / 2, width / 2, n + 1)
+    x, y = np.meshgrid(at, at, indexing="ij")
+    corner = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]))
+    return shapes.Shape(np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1),
+                        np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]))
+
+
+def tree():
+    """The tree of tubes, its lowest point at z = 0."""
+    return shapes.moved(shapes.tube_tree(), (0, 0, -shapes.tube_tree().vertices[:, 2].min()))
+
+
+def has_ground(*things):
+    return find_standing(PolygonMesh.of(*shapes.together(*things))) is not None
+
+
+@pytest.mark.parametrize("floor", [
+    sheet(5), sheet(40), sheet(200), sheet(12, 30), sheet(5, depth=0.6), sheet(15, depth=2)],
+    ids=["near", "wide", "very wide", "of many faces", "plinth", "slab"])
+def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
+    """On a floor three times as wide a person was one part."""
+    alone, n = decompose(*tree()), len(tree().faces)
+    turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    shape = shapes.together(tree(), floor)
+    for vertices in (shape.vertices, shape.vertices @ turn * 1e-30):
+        found = decompose(vertices, shape.faces)
+        labels = found.parts().labels
+        if vertices is shape.vertices:
+            np.testing.assert_array_equal(found.candidates[:n], alone.candidates)
+        assert len(set(labels[:n])) == alone.parts().count >= 4
+        assert len(set(labels[n:])) == 1
+        assert labels[n] not in labels[:n]
+        assert found.parts(0).count == 1
+        assert found.parts(n_parts=2).labels.tolist() in ([0] * n + [1] * (len(labels) - n),
+                                                           [1] * n + [0] * (len(labels) - n))
+        assert "What stands on 1 flat piece is decomposed without it." in map(str, found.notes)
+        assert (found.field[len(tree().vertices):] == 0).all()
+        assert found.parts().share.sum() == pytest.approx(1)
+
+
+def test_with_pieces_separate_a_ground_is_a_piece_like_any_other():
+    shape = shapes.together(tree(), sheet(40))
+    found = decompose(*shape, Parameters(pieces=SEPARATE))
+    assert not any("flat" in str(note) for note in found.notes)
+
+
+def test_floor_and_wall_are_grounds():
+    wall = shapes.Shape(sheet(30).vertices[:, [0, 2, 1]] + (0, 16, 15), sheet(30).faces)
+    found = decompose(*shapes.together(tree(), sheet(30), wall))
+    labels = found.parts().labels
+    np.testing.assert_array_equal(found.candidates[:len(tree().faces)], decompose(*tree()).candidates)
+    assert len(set(labels[-4:])) == 2
+    assert "What stands on 2 flat pieces is decomposed without them." in map(str, found.notes)
+
+
+def test_things_on_a_floor_are_parts_of_their_own():
+    things = [shapes.moved(tree(), (12 * k, 0, 0)) for k in range(3)]
+    found = decompose(*shapes.together(*things, shapes.moved(sheet(90), (12, 0, 0))))
+    thing = np.repeat([0, 1, 2, 3], [len(tree().faces)] * 3 + [2])
+    labels = found.parts().labels
+    for part in range(labels.max() + 1):
+        assert len(set(thing[labels == part])) == 1
+
+
+def test_hints_copies_and_halves_go_along():
+    shape = shapes.together(tree(), sheet(40))
+    n = len(tree().faces)
+    hint = (tree().vertices[tree().faces].mean(axis=1)[:, 0] > 0.7).astype(int)
+    alone = decompose(*tree(), hints=hint)
+    assert (alone.candidates != decompose(*tree()).candidates).any()
+    found = decompose(*shape, hints=np.append(hint, [0, 0]))
+    np.testing.assert_array_equal(found.candidates[:n], alone.candidates)
+    twice = decompose(shape.vertices, np.concatenate([shape.faces, shape.faces[n:, ::-1]]))
+    np.testing.assert_array_equal(twice.candidates[:n], decompose(*tree()).candidates)
+    assert len(set(twice.candidates[n:])) == 1
+    assert type(found).from_bytes(found.to_bytes()).parts().labels.tolist() == found.parts().labels.tolist()
+
+
+def test_what_is_no_ground():
+    box = shapes.subdivide(shapes.box((1, 1, 1)))
+    legs = [shapes.moved(shapes.box((0.3, 0.3, 3)), (x, y, -3)) for x in (-2, 2) for y in (-2, 2)]
+    assert has_ground(sheet(6), box)
+    assert not has_ground(sheet(6, 2))
+    assert not has_ground(sheet(1.5), box)  # no wider than what stands on it
+    assert not has_ground(sheet(6), shapes.moved(shapes.box((1, 1, 0.05)), (0, 0, 0.01)))  # a relief
+    assert not has_ground(sheet(6), box, *legs)  # a table and what is on it
+    assert not has_ground(sheet(6, 3), shapes.box((1, 1, 1)), shapes.moved(shapes.box((1, 1, 1)), (0, 0, -1)))
+    assert not has_ground(sheet(6, depth=1), box)  # as few faces have both
+    assert not has_ground(sheet(1e6), box)
+
+
+def test_a_half_model_on_half_a_ground():
+    column = shapes.lathe([0.01, 1, 1, 0.3, 0.3, 1, 1, 0.01], [0, 0.01, 1, 1.5, 2.5, 3, 4, 4.01], 12)
+    shape = shapes.together(column, sheet(30, 2))
+    assert (np.abs(shape.vertices[:, 0]) < 1e-9).sum() > 16
+    kept = shape.vertices[shape.faces][..., 0].min(axis=1) > -1e-9
+    whole = decompose(*shape).parts()
+    found = decompose(shape.vertices, shape.faces[kept], mirror=(1, 0, 0, 0)).parts()
+    assert found.count == whole.count >= 3
+    assert len(set(found.labels[-4:])) == 1
