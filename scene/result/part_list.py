@@ -13,7 +13,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix
 
-from ...core.arrays.int64 import arange
+from ...core.arrays.indexing import inverse
 from .. import property_updates, store, targets, transaction
 from ..changes.settled import reaction
 from ..errors import SceneError
@@ -142,18 +142,14 @@ def ordered(parts: bpy.types.bpy_prop_collection, by: str, matrix: Matrix) -> li
 
 def _places(keys: np.ndarray) -> list[int]:
     """The place of each key among all, (k,); equal ones stay in their order."""
-    places = np.empty(len(keys), np.int64)
-    places[np.argsort(keys, kind="stable")] = arange(len(keys))
-    return places.tolist()
+    return inverse(np.argsort(keys, kind="stable")).tolist()
 
 
 @lru_cache(1)
 def _by_name(names: tuple[str, ...]) -> tuple[int, ...]:
     """The place of each name among all."""
-    places = [0] * len(names)
-    for place, index in enumerate(sorted(range(len(names)), key=lambda index: _natural(names[index]))):
-        places[index] = place
-    return tuple(places)
+    order = sorted(range(len(names)), key=lambda index: _natural(names[index]))
+    return tuple(inverse(np.array(order, np.int64)).tolist())
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
