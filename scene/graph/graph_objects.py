@@ -23,10 +23,9 @@ from ...core.uses.graph_folding import unfolded
 from .. import bridge, store, transaction
 from ..ours import made_objects
 from ..ours.made_objects import ROLE
-from ..reading import mesh_arrays
 from ..result import part_names
 from ..showing import visibility
-from ..showing.selection import in_layer
+from ..showing.selection import hidden_faces, in_layer
 from . import arc_curves, graph_finding, graph_removal
 
 _GRAPH_OF = "Reeb Graph "  # how its name begins
@@ -206,7 +205,7 @@ def _unmove(item: bpy.types.Object) -> None:
 
 def hidden_parts(mesh: bpy.types.Mesh, face_numbers: np.ndarray) -> list[int]:
     """Numbers of the parts of which every face is hidden. face_numbers : (p,) int64, the part of each face."""
-    hidden = mesh_arrays.element_values(mesh, "polygons", "hide")
+    hidden = hidden_faces(mesh)
     if len(hidden) != len(face_numbers) or not hidden.any():
         return []
     return np.setdiff1d(face_numbers[hidden], face_numbers[~hidden]).tolist()

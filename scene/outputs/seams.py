@@ -64,16 +64,9 @@ def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
     """Leave the user's seams alone of faces that came with ours from another mesh. ours : (p,) bool."""
     if _KEPT not in mesh.attributes or is_kept(mesh, _KEPT, "has_seams"):
         return
-    now = mesh_arrays.element_values(mesh, "edges", "use_seam")
-    mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(_edges_of(mesh, ours), _theirs(mesh), now))
+    now, came = mesh_arrays.element_values(mesh, "edges", "use_seam"), mesh_arrays.edges_of(mesh, ours)
+    mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(came, _theirs(mesh), now))
     remove_attribute(mesh, _KEPT)
-
-
-def _edges_of(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
-    """The edges of some faces, (e,) bool. faces : (p,) bool."""
-    there = np.zeros(len(mesh.edges), bool)
-    there[mesh_arrays.corner_edges(mesh)[np.repeat(faces, mesh_arrays.face_sizes(mesh))]] = True
-    return there
 
 
 def _seam_name(mesh: bpy.types.Mesh) -> str | None:

@@ -173,6 +173,13 @@ def _corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     return read(mesh.attributes[name].data if len(mesh.loops) else (), "value", np.int32)
 
 
+def edges_of(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """Which edges some faces, (p,) bool, have, (e,) bool; not in Edit Mode."""
+    there = np.zeros(len(mesh.edges), bool)
+    there[corner_edges(mesh)[np.repeat(faces, face_sizes(mesh))]] = True
+    return there
+
+
 def edge_ends(mesh: bpy.types.Mesh) -> np.ndarray:
     """The vertices of each edge, (e, 2) int32; not in Edit Mode."""
     return read(mesh.attributes[".edge_verts"].data if len(mesh.edges) else (), "value", np.int32, 2)

@@ -61,11 +61,9 @@ def hide_elements(mesh: bpy.types.Mesh, hidden: dict[str, np.ndarray]) -> None:
 def _touched(mesh: bpy.types.Mesh, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The edges and the vertices of some faces, (e,) and (v,) bool."""
     vertex, face = mesh_arrays.face_corners(mesh)
-    corner = mask[face]
-    edges, vertices = np.zeros(len(mesh.edges), bool), np.zeros(len(mesh.vertices), bool)
-    edges[mesh_arrays.corner_edges(mesh)[corner]] = True
-    vertices[vertex[corner]] = True
-    return edges, vertices
+    vertices = np.zeros(len(mesh.vertices), bool)
+    vertices[vertex[mask[face]]] = True
+    return mesh_arrays.edges_of(mesh, mask), vertices
 
 
 def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.ndarray, vertices: np.ndarray) -> None:
