@@ -38,8 +38,7 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
 
 def _chosen_pieces(context: bpy.types.Context, report: Callable[[set[str], str], None]) -> list[bpy.types.Object]:
     """The active one and all selected ones that can be written and are not being edited; of others it is said why."""
-    chosen = dict.fromkeys([targets.active_object(context), *targets.selected_objects(context)])
-    pieces = [item for item in chosen if item is not None and origins.NUMBER in item]
+    pieces = [item for item in targets.active_and_selected(context) if origins.NUMBER in item]
     return [piece for piece, _ in targets.usable(pieces, targets.check_at_rest, report)]
 
 

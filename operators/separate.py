@@ -38,8 +38,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         fill_in(self, context.scene.reeb_parts_use, SEPARATE)
         # Whether they can be worked on is asked later, where the answer is reported.
-        objects = {targets.active_object(context), *targets.selected_objects(context)}
-        long = is_long([obj for obj in objects if obj is not None and obj.type == "MESH"], self)
+        long = is_long([obj for obj in targets.active_and_selected(context) if obj.type == "MESH"], self)
         return self.start(context) if long else self.execute(context)
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -169,8 +168,7 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
             raise SceneError(rpt_("Go to Object Mode first"))
 
     def run(self, context: bpy.types.Context) -> None:
-        chosen = [targets.active_object(context), *targets.selected_objects(context)]
-        objects = [obj for obj in dict.fromkeys(chosen) if piece_objects.has_pieces(obj)]
+        objects = [obj for obj in targets.active_and_selected(context) if piece_objects.has_pieces(obj)]
         pieces = []
         for obj, _ in targets.usable(objects, targets.check_object, self.report):
             # Appended alone to another file, an object comes with its pieces, but these are in no scene.
@@ -196,8 +194,7 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
         _check_shown(context, piece_objects.original_of(piece_objects.active_piece(context)))
 
     def run(self, context: bpy.types.Context) -> None:
-        pieces = [targets.active_object(context), *targets.selected_objects(context)]
-        found = list(dict.fromkeys(origins.originals(pieces).values()))
+        found = list(dict.fromkeys(origins.originals(targets.active_and_selected(context)).values()))
         objects = [obj for obj, _ in targets.usable(found, lambda obj: _check_shown(context, obj), self.report)]
         for obj in objects:
             piece_objects.show_original(context, obj)

@@ -97,6 +97,12 @@ def selected_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     return list(context.view_layer.objects.selected if found is None else found)
 
 
+def active_and_selected(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The active object, if there is one, then the other selected ones."""
+    every = dict.fromkeys([active_object(context), *selected_objects(context)])
+    return [obj for obj in every if obj is not None]
+
+
 def check_object(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the object is a mesh that can be read and written."""
     if obj is None:
