@@ -110,18 +110,16 @@ def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object],
         if found is None or found.open_or_crossing:
             # Later on, what the model does not have either may be the user's work.
             (as_model if just_made and found is not None and found.as_model else wrong).append(piece.name)
-    if wrong:
-        operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are "
-                                          "not closed or cross themselves}: {names}").format(
-            n=Count(len(wrong)), total=Count(len(pieces)), names=listed(wrong)))
-    if as_model:
-        operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or "
-                                          "cross themselves} as the model does there: {names}").format(
-            n=Count(len(as_model)), total=Count(len(pieces)), names=listed(as_model)))
-    if turned:
-        operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: "
-                                          "{names}").format(
-            n=Count(len(turned)), total=Count(len(pieces)), names=listed(turned)))
-    if not wrong and not as_model and not turned:
+    for names, sentence in (
+        (wrong, rpt_("{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross "
+                     "themselves}: {names}")),
+        (as_model, rpt_("{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} "
+                        "as the model does there: {names}")),
+        (turned, rpt_("{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: {names}")),
+    ):
+        if names:
+            operator.report({"WARNING"}, sentence.format(
+                n=Count(len(names)), total=Count(len(pieces)), names=listed(names)))
+    if not (wrong or as_model or turned):
         operator.report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
                                        "cross themselves}").format(n=Count(len(pieces))))
