@@ -13,6 +13,7 @@ from ..core.graph.reeb import ReebGraph
 from ..core.result.decomposition import Decomposition
 from ..core.uses.graph_folding import unfolded
 from ..scene import bridge
+from ..scene.graph import arc_curves
 from ..scene.store import Stored
 
 
@@ -47,7 +48,7 @@ class GraphLines:
         all.
         """
         graph = decomposition.graph
-        position = np.concatenate([graph.node_position, graph.point_position]) @ bridge.unstretch(stretch).T
+        position = arc_curves.places(graph, bridge.unstretch(stretch).T)
         value = np.concatenate([graph.node_value, graph.point_value])
         candidate = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
         return cls(position, value, candidate, _segments(graph, np.ones(graph.n_arcs, bool) if arcs is None else arcs))
