@@ -85,10 +85,10 @@ class Model:
         # (p, 3) float64 each; of what is seen once ``look`` was called.
         self.face_center = table.face_means(table.vertices)
         self.face_normal = np.zeros_like(self.face_center)
-        self._surface: Surface | None = None  # the one that was looked at
+        self._surface: SeenSurface | None = None  # the one that was looked at
         self._trees: dict[int, tuple[np.ndarray, cKDTree]] = {}
 
-    def look(self, context: bpy.types.Context, obj: bpy.types.Object) -> Surface:
+    def look(self, context: bpy.types.Context, obj: bpy.types.Object) -> SeenSurface:
         """The surface of the object as it is shown, on which ``face_center`` and all that is found by it are then."""
         surface = _surface_of(context, obj)
         if self._surface is not surface:
@@ -204,7 +204,7 @@ class Model:
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class SeenSurface:
     """The surface of an object as it is shown, with its modifiers, ready for rays in the object's coordinates.
 
     Attributes
@@ -226,10 +226,10 @@ class Surface:
     face_normal: np.ndarray
 
 
-_surfaces: list[Surface] = []  # the last one
+_surfaces: list[SeenSurface] = []  # the last one
 
 
-def _surface_of(context: bpy.types.Context, obj: bpy.types.Object) -> Surface:
+def _surface_of(context: bpy.types.Context, obj: bpy.types.Object) -> SeenSurface:
     """The surface of an object, read again only once its points have moved.
 
     Blender's own rays want a new tree whenever something was written to the mesh, be it the color of one face: of
@@ -242,7 +242,7 @@ def _surface_of(context: bpy.types.Context, obj: bpy.types.Object) -> Surface:
             _surfaces[0].points, points):
         _surfaces.clear()
         tree = BVHTree.FromObject(obj, depsgraph)
-        _surfaces.append(Surface(obj.session_uid, points, n_faces, tree, *seen_points.seen_faces(context, obj)))
+        _surfaces.append(SeenSurface(obj.session_uid, points, n_faces, tree, *seen_points.seen_faces(context, obj)))
     return _surfaces[0]
 
 
