@@ -18,7 +18,6 @@ after Ctrl+C; an OUT.json of an earlier run does not outlast one that failed.
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 from collections.abc import Iterator
@@ -29,7 +28,7 @@ import bpy
 
 from ..core.errors import ParameterError, ReebError
 from ..core.file_names import readable
-from ..core.options import FAILED, WRONG_OPTION, chosen_parameters, in_working_folder
+from ..core.options import FAILED, WRONG_OPTION, answer_text, chosen_parameters, in_working_folder
 from ..scene import store, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_finding
@@ -70,7 +69,7 @@ def main(arguments: list[str]) -> int:
             say("There is not enough memory; nothing was written.")
             return FAILED
         try:
-            answer.write(_as_text(result))
+            answer.write(answer_text(result))
             answer.flush()
         except OSError as error:
             say(f"Standard output could not be written: {reason(error)}")
@@ -136,11 +135,6 @@ def _check_kinds(options: argparse.Namespace) -> None:
         path = getattr(options, option)
         if path is not None and path.suffix.lower() != kind:
             raise SceneError(f"--{option} {path} must end in {kind}.")
-
-
-def _as_text(result: dict) -> str:
-    """The JSON as it is written."""
-    return json.dumps(result, indent=2, allow_nan=False) + "\n"
 
 
 def decompose_object(obj: bpy.types.Object, computations: Computations, options: argparse.Namespace,
@@ -231,7 +225,7 @@ def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.
         written["json"] = readable(options.json)
     result = document(reports, blender=bpy.app.version_string, files=written, problems=problems)
     if options.json:
-        text = _as_text(result)
+        text = answer_text(result)
         with files.writing(options.json, file_checks.text(text)) as path:
             path.write_bytes(text.encode())
     return result

@@ -26,7 +26,7 @@ What all of them, and who calls them, may use:
 
 - ``version``: of the product
 - ``parameters``: of a run, and the presets
-- ``options``: of a command, made from the parameters, and how a command ends
+- ``options``: what commands share: options made from the parameters, how the answer is written, how a command ends
 - ``errors``: exceptions whose messages the user reads
 - ``sentence``: messages that can be translated
 - ``progress``: how far a run is, and how long its stages take

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of a command that set parameters, made from the definitions of the parameters, and how a command ends."""
+"""What commands share: the options that set parameters, made from the definitions of these, the answer, the end."""
 
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import Any
 
 from .errors import ReebError
 from .parameters import PRESETS, RENAMED, Parameters, present_names
@@ -30,6 +32,11 @@ def in_working_folder() -> Iterator[None]:
         except FileNotFoundError:  # no relative name leads anywhere
             raise ReebError(NO_WORKING_FOLDER) from error
         raise
+
+
+def answer_text(document: dict[str, Any]) -> str:
+    """The JSON that a command answers with, or writes, as text."""
+    return json.dumps(document, indent=2, allow_nan=False) + "\n"
 
 
 def add_parameters(group: argparse._ArgumentGroup) -> None:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import io
-import json
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,7 @@ from .core.errors import ParameterError
 from .core.file_names import file_name
 from .core.mesh.arguments import whole_numbers
 from .core.mesh.triangles import TriMesh
+from .core.options import answer_text
 from .core.result.decomposition import Decomposition
 from .core.result.parts import Parts
 from .core.sentence import Sentence
@@ -41,7 +41,7 @@ LARGEST_PICTURE, LARGEST_FINE = 4096, 2000
 
 def json_bytes(result: dict[str, Any]) -> bytes:
     """A document as the bytes of a JSON file, the same as Blender's command writes."""
-    return (json.dumps(result, indent=2, allow_nan=False) + "\n").encode()
+    return answer_text(result).encode()
 
 
 def model_document(
