@@ -139,9 +139,7 @@ class Elements:
 
     def around(self, vertices: np.ndarray) -> np.ndarray:
         """Faces with one of some vertices, (v,) bool: (k,) int64, rising."""
-        corner = np.flatnonzero(vertices[self.corner_vertex])
-        first = cumsum(self.count) - self.count
-        return np.unique(np.searchsorted(first, corner, side="right") - 1)
+        return np.unique(self.corner_face[vertices[self.corner_vertex]]).astype(np.int64)
 
     def selection(self, faces: np.ndarray) -> Selection:
         """Some faces, (k,) int64, and all that belongs to them."""
