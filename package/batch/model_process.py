@@ -65,17 +65,18 @@ class ModelProcess:
             the model says why.
         """
         start = time.monotonic()
-        status, reason = self._attempt(job, seconds)
-        if not status:
-            return self._answer
+        answer = self._attempt(job, seconds)
+        if isinstance(answer, dict):
+            return answer
+        status, reason = answer
         self.close()
         with suppress(OSError):  # such as a full disk: it will be tried again
             settings = Settings.from_dict(job["settings"]).digest
             write_record(job, failure(job["name"], status, reason, settings, digest_of(Path(job["path"]))))
         return {"status": status, "reason": reason, "seconds": round(time.monotonic() - start, 4)}
 
-    def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
-        """Wait for the answer; what went wrong otherwise and why, two empty words if nothing did."""
+    def _attempt(self, job: dict[str, Any], seconds: float) -> dict[str, Any] | tuple[str, str]:
+        """Wait for the answer; what went wrong and why in place of it, if something did."""
         if self._process is None and (why := self._start_surely()):
             return self._crash("The process could not start: ", why)
         assert self._process is not None
@@ -86,19 +87,19 @@ class ModelProcess:
         until = time.monotonic() + seconds
         while True:
             try:
-                self._answer = self._messages.get(timeout=min(LOOK, max(until - time.monotonic(), 0.01))
-                                                  if seconds else LOOK)
+                answer = self._messages.get(timeout=min(LOOK, max(until - time.monotonic(), 0.01))
+                                            if seconds else LOOK)
                 break
             except queue.Empty:
                 if seconds and time.monotonic() > until:
                     return TIME, f"It took longer than {seconds:g} s."
                 if self.memory_limit and self._memory(job["blender"] is not None) > self.memory_limit:
                     return MEMORY, self._too_much()
-        if self._answer is ENDED:
+        if answer is ENDED:
             return self._end_of_process()
-        if self._answer.get("memory"):
+        if answer.get("memory"):
             return MEMORY, self._too_much()
-        return "", ""
+        return answer
 
     def _start_surely(self) -> str:
         """Start the process, once more if it ends before it is ready; "" if it is ready, else why it is not."""
