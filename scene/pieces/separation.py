@@ -217,7 +217,10 @@ def _shaped_otherwise(run: _Run) -> tuple[list[str], list[str]]:
 
 
 def _coming(obj: bpy.types.Object, wanted: list[int], sides: modified.BothSides, style: SeparateProperties) -> set[str]:
-    """What the new pieces stand for, and dowels, of which nobody knows yet where there is room for them."""
+    """What the new pieces and dowels will stand for.
+
+    Of dowels all that are there are taken to come again, as it is not known yet where there is room for new ones.
+    """
     parts = {sides.part.get(key, key) for key in np.intersect1d(wanted, sides.face_numbers).tolist()}
     return {*map(part_stands_for, parts), *(stands_for(dowel) for dowel in dowels(obj) if style.joints == "DOWEL")}
 

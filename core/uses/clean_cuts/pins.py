@@ -15,7 +15,7 @@ from .band import Band
 from .turning import turning
 
 # Along a crease faces turn by such an angle or more, and the crease itself by less than the second from edge to edge. A
-# border that follows it may leave it for twice so many edges.
+# border that follows it may leave it for less than twice so many edges.
 CREASE, STRAIGHT, GAP = np.radians(30), np.radians(45), 2
 
 

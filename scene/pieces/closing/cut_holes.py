@@ -113,7 +113,7 @@ def _is_ring(curves: list[np.ndarray], discs: Discs) -> bool:
 
 
 def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:
-    """Faces at the holes that were opened by cuts, (e,) bool: (k,) int64.
+    """The faces of a piece at the holes that cuts have left, (k,) int64, rising. opened : (e,) bool, the edges of cuts.
 
     A hole goes round borders that there were before, too, if the cut ends there.
     """
