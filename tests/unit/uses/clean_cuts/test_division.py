@@ -52,7 +52,9 @@ def test_of_squares_with_a_corner_turned_in_only_those_at_a_curve_have_to_be_tri
     beyond = turned_in(vertices, 2, 6)
     table = CornerTable.of(vertices, faces)
     assert set(np.flatnonzero(~Band.of(table, labels, 12).convex)) >= {at_curve, beyond}
-    assert clean_cuts(table, labels).odd.tolist() == [at_curve]
+    cuts = clean_cuts(table, labels)
+    assert cuts.odd.tolist() == [at_curve]
+    assert np.count_nonzero(cuts.face == at_curve) <= 1
 
 
 @pytest.mark.parametrize("share", [0.25, 0.5])
@@ -76,13 +78,25 @@ def test_a_square_that_a_curve_crosses_is_in_two_fragments(share):
     assert starts == [(0, middle, 1), (0, left, 0), (1, right, 1), (1, middle, 0)]
 
 
-def test_a_square_whose_corners_a_curve_only_passes_stays_whole():
+@pytest.mark.parametrize("corner", [(0.0, 0.0, 0.0), (0.6, 0.6, 0.0)])  # the second beyond the diagonal before it
+def test_a_square_whose_corners_a_curve_only_passes_stays_whole_with_a_corner_turned_in_or_not(corner):
     """A curve through two corners next to each other runs along the edge between them."""
     vertices = np.array([(x, y, 0) for x in range(3) for y in range(2)], float)
-    table = CornerTable.of(vertices, np.array([(0, 2, 3, 1), (2, 4, 5, 3)]))
-    band = Band.of(table, np.array([0, 1]), 3)
+    vertices[0] = corner
+    band = Band.of(CornerTable.of(vertices, np.array([(0, 2, 3, 1), (2, 4, 5, 3)])), np.array([0, 1]), 3)
+    assert band.convex.tolist() == [not any(corner), True]
     low, high = np.array([0, 0, 0, 0, 1, 1]), np.array([0, 0, 1, 1, 1, 1])
-    division = divide(band, Sides(low, high, np.full(len(table.edges), np.nan), np.full(6, -1)))
+    division = divide(band, Sides(low, high, np.full(len(band.table.edges), np.nan), np.full(6, -1)))
     assert division.n_fragments.tolist() == [1, 1]
     assert not division.odd.any()
     assert not division.concerned(band.labels).any()
+
+
+def test_a_face_with_a_corner_on_the_other_side_is_not_divided_without_points_on_its_edges():
+    """A fragment of one edge would have no area."""
+    vertices = np.array([(x, y, 0) for x in range(3) for y in range(2)], float)
+    band = Band.of(CornerTable.of(vertices, np.array([(0, 2, 1), (2, 3, 1), (2, 4, 3), (4, 5, 3)])),
+                   np.array([0, 0, 1, 1]), 3)
+    side = np.array([0, 0, 0, 0, 1, 1])
+    division = divide(band, Sides(side, side, np.full(len(band.table.edges), np.nan), np.full(6, -1)))
+    assert division.n_fragments.tolist() == [1, 1, 1, 1]
