@@ -12,7 +12,6 @@ bytes, the same parameters, the same version - is not done again: a run that was
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import random
 import sys
@@ -29,7 +28,7 @@ from ..batch.records import CRASH, DONE, OPEN, Settings, failure, is_done, recor
 from ..batch.sources import Source, find_sources, folder_of, is_gone, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
-from ..core.options import add_parameters, chosen_parameters, number
+from ..core.options import add_parameters, answer_text, chosen_parameters, number
 from ..core.sentence import Sentence
 from ..model_files import BY_BLENDER, formats
 from ..output_files import SharedFolder, as_output_error
@@ -110,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
     if batch.unread:
         answer["unread"] = batch.unread
     answer["seconds"] = round(time.perf_counter() - start, 3)
-    print_answer(json.dumps(answer, indent=2) + "\n")
+    print_answer(answer_text(answer))
     all_done = not batch.unread and all(status == DONE for status in answer["models"])
     return INTERRUPTED if interrupted else int(not all_done)
 

@@ -10,10 +10,10 @@ a picture of each part. Parts are compared by size, shape and place in the Reeb 
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
 from ..core.file_names import readable
+from ..core.options import answer_text
 from ..core.options import number as number_option
 from ..core.sentence import Sentence
 from ..output_files import OutputFileError, write_files
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
             raise OutputFileError(Sentence("{path} shows all models of the batch. Choose another name.",
                                            path=options.page))
         write_files({options.page: page(options.results, parts).encode()}, options.results / "parts.parquet")
-    print_answer(json.dumps({"part": parts[0], "similar": parts[1:]}, indent=2) + "\n")
+    print_answer(answer_text({"part": parts[0], "similar": parts[1:]}))
     return 0
 
 
