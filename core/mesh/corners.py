@@ -80,16 +80,11 @@ class CornerTable:
         if not (n_edge_faces == 1).any():
             return self, arange(len(self.vertices))
         first = joined_borders(self.vertices, self.edges, n_edge_faces, self.corner_vertex, self.corner_face)
-        return self.with_joined(first), first
-
-    def with_joined(self, first: np.ndarray) -> CornerTable:
-        """The table that ``joined`` returns. first : (n,) int64, the vertex that each is joined to."""
-        moved = first != arange(len(first))
-        if not moved.any():
-            return self
+        if (first == arange(len(first))).all():
+            return self, first
         edges, number = distinct_pairs(*np.sort(first[self.edges], axis=1).T)
         return replace(self, edges=edges, corner_vertex=first[self.corner_vertex],
-                       corner_edge=number[self.corner_edge])
+                       corner_edge=number[self.corner_edge]), first
 
     def vertices_of(self, mask: np.ndarray) -> np.ndarray:
         """Which vertices are corners of some faces, (n,) bool. mask : (p,) bool, the faces."""
