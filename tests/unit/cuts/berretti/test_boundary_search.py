@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Boundary search: curves in order, concavity without unit, cuts that slide into necks."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapes
@@ -53,6 +55,22 @@ def test_closed_curves_pass_every_crossing_once(make):
         a, b = sets.mesh.vertices[edges[edge]].transpose(1, 0, 2)
         np.testing.assert_allclose(np.linalg.norm(points - a, axis=1) + np.linalg.norm(points - b, axis=1),
                                    np.linalg.norm(a - b, axis=1), rtol=1e-9)
+
+
+@pytest.mark.parametrize("other", [shapes.icosphere(2), shapes.moved(shapes.flat_grid(4, 4), (-2, -2, 0))])
+@pytest.mark.parametrize("first", [False, True])
+def test_the_longest_of_several_curves_stands_for_a_contour(other, first):
+    """A contour that a bridge goes through has a curve on each side of it, here a ball and something coarser."""
+    ball, other = shapes.icosphere(3), shapes.moved(other, (0, 5, 0))
+    vertices, faces = shapes.together(other, ball) if first else shapes.together(ball, other)
+    sets = cut_at_levels(TriMesh(vertices, faces), vertices[:, 0], np.array([0.3]))
+    assert sets.n_contours == 2
+    longest = int(np.bincount(sets.segment_contour).argmax())
+    crossed = sets.segment_edges[sets.segment_contour == longest]
+    sets = replace(sets, segment_contour=np.zeros_like(sets.segment_contour))
+    edge, _, closed = contour_curve(sets, 0)
+    assert closed
+    assert sorted(edge.tolist()) == np.unique(crossed).tolist()
 
 
 def test_open_curves_run_from_border_to_border():
