@@ -27,6 +27,15 @@ def test_majority_by_hand():
     assert majority(none, none, np.empty(0), 2).tolist() == [-1, -1]
 
 
+def test_boundaries_by_hand():
+    """Five faces, the last of no label: labels 0 and 2 touch twice, the others once, and 0 touches itself."""
+    pairs = np.array([[0, 1], [2, 1], [3, 2], [1, 4], [0, 2], [0, 3]])
+    length = np.array([1.0, 2.0, 4.0, 8.0, 16.0, 32.0])
+    touching, total = label_boundaries(np.array([2, 0, 0, 1, -1]), pairs, length)
+    assert touching.tolist() == [[0, 1], [0, 2], [1, 2]]
+    assert total.tolist() == [4.0, 17.0, 32.0]
+
+
 def test_a_face_without_a_label_touches_nothing():
     touching, length = label_boundaries(np.array([0, -1, 1]), np.array([[0, 1], [1, 2]]), np.ones(2))
     assert touching.shape == (0, 2)
