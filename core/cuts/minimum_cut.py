@@ -17,8 +17,8 @@ from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
 from ..arrays.indexing import place_among
 from ..arrays.int64 import full
-from ..arrays.pairs import both_ways, symmetric_matrix
-from ..mesh.labels import label_boundaries, spread
+from ..arrays.pairs import symmetric_matrix
+from ..mesh.labels import follow, label_boundaries
 from ..mesh.triangles import TriMesh
 from .hierarchy import Hierarchy
 
@@ -133,15 +133,11 @@ def move_cuts(
         Candidate of each face. A face that changed part takes the candidate of a neighbor in its new part, from the cut
         outwards.
     """
-    a, b = both_ways(movable.mesh.edges.pairs).T
     coarser = None
     for detail in details:
         part = hierarchy.parts_at(detail)[label]
         moved = minimum_cuts(movable, part, coarser)
-        before, label = label, np.where(moved == part, label, -1)
-        together = moved[a] == moved[b]
-        label = spread(label, a[together], b[together])
-        label = np.where(label < 0, before, label)  # a face that no candidate reaches keeps its own
+        label = follow(label, part, moved, movable.mesh.edges.pairs)
         coarser = moved
     return label
 

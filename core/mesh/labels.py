@@ -40,10 +40,8 @@ def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners:
     return np.where(divided, np.append(name, -1)[last], winner)
 
 
-def label_boundaries(
-    label: np.ndarray, pairs: np.ndarray, length: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Find which labels touch, and along what length.
+def borders(label: np.ndarray, pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find which labels touch, and where.
 
     Parameters
     ----------
@@ -51,21 +49,44 @@ def label_boundaries(
         Label of each face (or of anything else that has neighbors); -1 for none.
     pairs : (e, 2) int64
         Faces that touch.
+
+    Returns
+    -------
+    between : (k,) int64
+        Rows of ``pairs`` whose faces have different labels, rising.
+    touching : (c, 2) int64
+        Pairs of labels that touch, the smaller label first, in lexicographic order.
+    border : (k,) int64
+        Row of ``touching`` that each of ``between`` belongs to.
+    """
+    first, second = label[pairs.T]
+    between = np.flatnonzero((first != second) & (first >= 0) & (second >= 0))
+    first, second = first[between], second[between]
+    touching, border = distinct_pairs(np.minimum(first, second), np.maximum(first, second))
+    return between, touching, border
+
+
+def label_boundaries(
+    label: np.ndarray, pairs: np.ndarray, length: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find which labels touch, and along what length.
+
+    Parameters
+    ----------
+    label, pairs
+        As ``borders`` takes them.
     length : (e,) float64
         Length of the boundary between the two faces of each pair.
 
     Returns
     -------
     touching : (c, 2) int64
-        Pairs of labels that touch, the smaller label first, in lexicographic order.
+        As ``borders`` returns it.
     total : (c,) float64
         Length of the boundary between the two labels, in the unit of ``length``.
     """
-    first, second = label[pairs.T]
-    apart = np.flatnonzero((first != second) & (first >= 0) & (second >= 0))
-    first, second = first[apart], second[apart]
-    touching, boundary = distinct_pairs(np.minimum(first, second), np.maximum(first, second))
-    return touching, sums_by(boundary, length[apart], len(touching))
+    between, touching, border = borders(label, pairs)
+    return touching, sums_by(border, length[between], len(touching))
 
 
 def longest_neighbor(touching: np.ndarray, length: np.ndarray, count: int) -> np.ndarray:
@@ -113,6 +134,29 @@ def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         if not reached.any():
             return label
         label[a[reached]] = label[b[reached]]
+
+
+def follow(label: np.ndarray, part: np.ndarray, moved: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+    """Let labels follow where faces have moved from part to part, so that every label stays within one part.
+
+    Parameters
+    ----------
+    label : (n,) int64
+        Label of each face (or of anything else that has neighbors) before.
+    part, moved : (n,) int64
+        Part that it was in, and is in now.
+    pairs : (e, 2) int64
+        Faces that touch.
+
+    Returns
+    -------
+    label : (n,) int64
+        What moved takes that of a neighbor in its new part, from the cut outwards; what none reaches keeps its own.
+    """
+    a, b = both_ways(pairs).T
+    together = moved[a] == moved[b]
+    found = spread(np.where(moved == part, label, -1), a[together], b[together])
+    return np.where(found < 0, label, found)
 
 
 def disagreement(first: np.ndarray, second: np.ndarray, weight: np.ndarray) -> float:

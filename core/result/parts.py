@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays.indexing import largest_of_each, sums_by
 from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
-from ..mesh.labels import majority
+from ..mesh.labels import borders, majority
 from ..mesh.triangles import vote_weights
 from .junctions import counted_again
 
@@ -100,11 +100,9 @@ class Parts:
     def _boundaries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Pairs of parts, and length and salience of the cut between them."""
         d = self.decomposition
-        low, high = np.sort(self.candidate_part[d.candidate_pairs], axis=1).reshape(-1, 2).T
-        apart = low != high
-        cuts, cut = distinct_pairs(low[apart], high[apart])
-        salience = largest_of_each(cut, d.pair_salience[apart], len(cuts))
-        length = sums_by(cut, d.candidate_pair_length[apart], len(cuts))
+        between, cuts, cut = borders(self.candidate_part, d.candidate_pairs)
+        salience = largest_of_each(cut, d.pair_salience[between], len(cuts))
+        length = sums_by(cut, d.candidate_pair_length[between], len(cuts))
         if len(d.junctions):
             pairs, more = counted_again(d.junctions, d.junction_length, self.candidate_part)
             places, place = distinct_pairs(*np.concatenate([cuts, pairs]).T)

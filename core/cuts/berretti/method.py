@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from ...arrays.pairs import both_ways
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...mesh.labels import majority, spread
+from ...mesh.labels import follow, majority
 from ...parameters import Parameters
 from ...surface.curvature import SCALES, curvature_across, k_min
 from ..hierarchy import Candidates
@@ -45,7 +42,7 @@ def berretti_candidates(
     moved = search_boundaries(sets, topology, curvature, piece_part, parameters.concavity_weight,
                               parameters.sigma)
     # A cut that moves may leave little of a region. Regions are therefore ranked again after the cuts have moved.
-    regions = rank_regions(sets, _follow(sets, regions.piece_region, piece_part, moved),
+    regions = rank_regions(sets, follow(regions.piece_region, piece_part, moved, sets.contour_pieces),
                            parameters.small_region)
     regions = with_finer(sets, topology, regions, parameters.small_region)
     candidate = regions.piece_region[sets.element_piece]
@@ -55,16 +52,3 @@ def berretti_candidates(
     across = curvature_across(sets.mesh, SCALES[:1])[0]
     label = move_cuts(MovableCuts(sets.mesh, across, parameters.band_ratio), label, regions.hierarchy)
     return Candidates(label[sets.element_face], regions.hierarchy)
-
-
-def _follow(sets: LevelSets, piece_region: np.ndarray, piece_part: np.ndarray, moved: np.ndarray) -> np.ndarray:
-    """Region of each slab piece, (P,) int64, after some have moved from ``piece_part`` to the part ``moved``.
-
-    A slab piece that changed part joins the region of a neighbor of its new part, so that every region stays within
-    one part.
-    """
-    region = np.where(moved == piece_part, piece_region, -1)
-    a, b = both_ways(sets.contour_pieces).T
-    together = moved[a] == moved[b]
-    region = spread(region, a[together], b[together])
-    return np.where(region < 0, piece_region, region)

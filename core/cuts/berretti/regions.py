@@ -9,9 +9,9 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered
-from ...arrays.pairs import distinct_pairs
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
+from ...mesh.labels import borders
 from ..hierarchy import Hierarchy
 from .fusion import fuse_small, fuse_weakest
 
@@ -181,8 +181,7 @@ def fuse_equal_adjacency(
     """
     region = np.asarray(region)
     while count > 2:
-        low, high = np.sort(region[sets.contour_pieces], axis=1).T
-        pairs = distinct_pairs(low[low != high], high[low != high])[0]
+        _, pairs, _ = borders(region, sets.contour_pieces)
         degree = np.bincount(pairs.ravel(), minlength=count)
         equal = pairs[degree[pairs[:, 0]] == degree[pairs[:, 1]]]
         if not len(equal):

@@ -10,9 +10,10 @@ import numpy as np
 from ...arrays.indexing import sums_by
 from ...arrays.int64 import full
 from ...arrays.nearest_seeds import nearest_seeds
-from ...arrays.pairs import distinct_pairs, symmetric_matrix
+from ...arrays.pairs import symmetric_matrix
 from ...arrays.ties import rounded, whole_steps
 from ...mesh.face_graph import FaceGraph
+from ...mesh.labels import borders
 from ...mesh.triangles import TriMesh
 
 # Share of the area below which a region is a sliver; what parts it from its neighbors counts by the weight only.
@@ -68,13 +69,11 @@ class CurvatureGraph:
         self.small = SLIVER_AREA * mesh.area
         self.area = np.bincount(region, area, count)
         self.sums = sums_by(region, area[:, None] * curvature[mesh.faces].mean(axis=1), count)
-        low, high = np.sort(region[mesh.edges.pairs], axis=1).T
-        apart = low != high
-        touching, border = distinct_pairs(low[apart], high[apart])
+        between, touching, border = borders(region, mesh.edges.pairs)
         nothing = 1e-12 * np.sqrt(mesh.area)
-        length = sums_by(border, mesh.pair_length[apart], len(touching)) + nothing
-        at = curvature[mesh.edges.vertices[mesh.edges.pair_edge[apart]]].mean(axis=1)
-        sums = sums_by(border, (mesh.pair_length[apart] + nothing)[:, None] * at, len(touching))
+        length = sums_by(border, mesh.pair_length[between], len(touching)) + nothing
+        at = curvature[mesh.edges.vertices[mesh.edges.pair_edge[between]]].mean(axis=1)
+        sums = sums_by(border, (mesh.pair_length[between] + nothing)[:, None] * at, len(touching))
         self.perimeter = np.bincount(touching.ravel(), np.repeat(length, 2), count)
         # For each region the length of the border with each neighbor, and the sum of the curvature along it.
         self.neighbors: list[dict[int, tuple[float, np.ndarray]]] = [{} for _ in range(count)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays.indexing import bounds_of_each, sums_by
 from ...arrays.int64 import arange
-from ...arrays.pairs import distinct_pairs
+from ...mesh.labels import borders
 from ...mesh.triangles import TriMesh
 from .features import RegionMeasures, cut_features_, region_shape
 from .measures import BORDER, REGION, SurfaceMeasures
@@ -55,10 +55,8 @@ class RegionAdjacencyGraph:
 
     def __init__(self, mesh: TriMesh, measures: SurfaceMeasures, label: np.ndarray) -> None:
         n = int(label.max()) + 1
-        low, high = np.sort(label[mesh.edges.pairs], axis=1).T
-        apart = low != high
-        self.ends, border = distinct_pairs(low[apart], high[apart])
-        self.border = sums_by(border, measures.pair[apart], len(self.ends))
+        between, self.ends, border = borders(label, mesh.edges.pairs)
+        self.border = sums_by(border, measures.pair[between], len(self.ends))
         first, second = self.ends.T
         around = sums_by(first, self.border, n) + sums_by(second, self.border, n)
         level_min, level_max = bounds_of_each(label, measures.level, n)

@@ -9,9 +9,8 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
-from ...arrays.indexing import sums_by
 from ...arrays.int64 import full
-from ...arrays.pairs import distinct_pairs
+from ...mesh.labels import label_boundaries
 from .part_images import PartImages
 
 
@@ -62,10 +61,7 @@ def even_tree(
     used = np.unique(images.first)
     middle, beside = images.own[used], images.image[used] != used
     place = np.searchsorted(used, images.first)
-    low, high = np.sort(place[pairs], axis=1).T
-    apart = low != high
-    joined, which = distinct_pairs(low[apart], high[apart])
-    total = sums_by(which, length[apart], len(joined))
+    joined, total = label_boundaries(place, pairs, length)
     total = total + 2.0 * total.sum() * middle[joined].all(axis=1)  # along the plane if there is a way
     # A root is not beside the plane if anything is not that hangs together with it.
     before, order = part_tree(len(used), joined, total, height[used] + beside * (1.0 + np.ptp(height)))

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.mesh.labels import disagreement, label_boundaries, longest_neighbor, majority
+from core.mesh.labels import borders, disagreement, follow, label_boundaries, longest_neighbor, majority
 
 
 def test_disagreement_by_counting_pairs():
@@ -31,8 +31,12 @@ def test_boundaries_by_hand():
     """Five faces, the last of no label: labels 0 and 2 touch twice, the others once, and 0 touches itself."""
     pairs = np.array([[0, 1], [2, 1], [3, 2], [1, 4], [0, 2], [0, 3]])
     length = np.array([1.0, 2.0, 4.0, 8.0, 16.0, 32.0])
-    touching, total = label_boundaries(np.array([2, 0, 0, 1, -1]), pairs, length)
+    between, touching, border = borders(np.array([2, 0, 0, 1, -1]), pairs)
+    assert between.tolist() == [0, 2, 4, 5]
     assert touching.tolist() == [[0, 1], [0, 2], [1, 2]]
+    assert border.tolist() == [1, 0, 1, 2]
+    same, total = label_boundaries(np.array([2, 0, 0, 1, -1]), pairs, length)
+    assert same.tolist() == touching.tolist()
     assert total.tolist() == [4.0, 17.0, 32.0]
 
 
@@ -46,3 +50,13 @@ def test_of_equally_long_boundaries_that_with_the_lowest_label_counts():
     touching = np.array([[0, 2], [1, 2], [2, 3]])
     assert longest_neighbor(touching, np.array([2.0, 2.0, 2.0]), 5).tolist() == [2, 2, 0, 2, -1]
     assert longest_neighbor(touching, np.array([1.0, 2.0, 2.0]), 5).tolist() == [2, 2, 1, 2, -1]
+
+
+def test_labels_follow_what_moves_to_another_part():
+    """Eight in a row and one alone; labels 0 and 1 are one part, 2 another, which 3 and 4 move to, and 8 with them."""
+    label = np.array([0, 0, 1, 1, 1, 2, 2, 2, 1])
+    part = np.array([0, 0, 0, 0, 0, 1, 1, 1, 0])
+    moved = np.array([0, 0, 0, 1, 1, 1, 1, 1, 1])
+    row = np.stack([np.arange(7), np.arange(1, 8)], axis=1)
+    assert follow(label, part, moved, row).tolist() == [0, 0, 1, 2, 2, 2, 2, 2, 1]
+    assert follow(label, part, part, row).tolist() == label.tolist()
