@@ -13,6 +13,7 @@ import numpy as np
 from ...core.arrays.int64 import cumsum
 from ..pieces.closing import caps
 from ..reading import mesh_arrays
+from ..reading.modified import evaluated_mesh
 from ..temporary import removed
 
 if TYPE_CHECKING:
@@ -60,10 +61,7 @@ def with_solids(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tu
             modifier = base.modifiers.new("Reeb Parts", "BOOLEAN")
             modifier.object, modifier.operation, modifier.solver = obj, operation, "EXACT"
             modifier.use_self = modifier.use_hole_tolerant = patient
-        context.view_layer.update()
-        depsgraph = context.evaluated_depsgraph_get()
-        made = bpy.data.meshes.new_from_object(base.evaluated_get(depsgraph), preserve_all_data_layers=True,
-                                               depsgraph=depsgraph)
+        made = evaluated_mesh(context, base)
     made.name = mesh.name
     return made
 

@@ -90,10 +90,7 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
         twin.data.attributes.new(_NUMBER, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
         twin.hide_viewport = False  # or Blender would not evaluate it
         context.scene.collection.objects.link(twin)
-        context.view_layer.update()
-        depsgraph = context.evaluated_depsgraph_get()
-        mesh = bpy.data.meshes.new_from_object(twin.evaluated_get(depsgraph), preserve_all_data_layers=True,
-                                               depsgraph=depsgraph)
+        mesh = evaluated_mesh(context, twin)
         # What is ours on the new mesh is told by the result, which does not come along.
         with property_updates.quiet():
             set_values(mesh.reeb_parts, values_of(obj.data.reeb_parts))
@@ -109,6 +106,14 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
             rpt_("The modifiers of {name} make {n} {n:face that belongs|faces that belong} to no part. Apply the "
                  "modifiers and decompose again.").format(name=obj.name, n=Count(lost)))
     return mesh, numbers
+
+
+def evaluated_mesh(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Mesh:
+    """A new mesh, for the caller to remove: what the modifiers of an object in the scene make of its own."""
+    context.view_layer.update()
+    depsgraph = context.evaluated_depsgraph_get()
+    return bpy.data.meshes.new_from_object(obj.evaluated_get(depsgraph), preserve_all_data_layers=True,
+                                           depsgraph=depsgraph)
 
 
 def both_sides(obj: bpy.types.Object, seen: bpy.types.Mesh, face_numbers: np.ndarray) -> BothSides:
