@@ -10,6 +10,7 @@ import numpy as np
 
 from .core import pipeline
 from .core.errors import MeshError, ParameterError
+from .core.mesh.arguments import check_is_mesh
 from .core.parameters import Parameters
 from .core.progress import Progress
 from .core.result.decomposition import Decomposition
@@ -86,8 +87,7 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
     _check_arguments(vertices, faces)
     if faces is None:
         mesh = vertices
-        if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
-            raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
+        check_is_mesh(mesh)
         vertices, faces = np.asarray(mesh.vertices), mesh.faces
         polygon = getattr(mesh, "polygon", None) if polygon is None else polygon
     return pipeline.decompose(vertices, faces, parameters, polygon, progress, mirror=mirror, hints=hints)

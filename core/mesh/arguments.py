@@ -17,6 +17,12 @@ _EXACT = 2.0**53  # up to here every whole number is a float64
 _LAST = np.uint64(2**63 - 1)  # the last number of int64
 
 
+def check_is_mesh(mesh: Any) -> None:
+    """Raise MeshError unless it has vertices and faces, as what other libraries call a mesh has."""
+    if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
+        raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
+
+
 def numbers(values: Any, truth: bool = False) -> np.ndarray | None:
     """Values as an array of float64, whole numbers as they are; None if they are no numbers.
 

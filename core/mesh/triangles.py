@@ -16,6 +16,7 @@ from ..arrays.int64 import cumsum, full
 from ..arrays.vectors import BLOCK, cross, distances_between, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
+from .arguments import check_is_mesh
 
 ON_A_LINE = 1e-11  # sine of the least angle below which the corners of a face lie on a line, but for rounding
 # What faces without an area weigh where faces vote for labels by their areas, as a share of the area of the mesh, and
@@ -175,8 +176,7 @@ class TriMesh:
         """
         if isinstance(mesh, cls):
             return mesh
-        if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
-            raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
+        check_is_mesh(mesh)
         return cls(mesh.vertices, mesh.faces)
 
     @property
