@@ -30,5 +30,7 @@ def test_members_that_a_group_has_more_than_once_whatever_lies_between():
 def test_which_pairs_are_among_others():
     pairs, others = np.array([(1, 2), (2, 1), (0, 0), (5, 9)]), np.array([(5, 9), (2, 1)])
     assert are_among(pairs, others).tolist() == [False, True, False, True]
+    assert are_among(np.array([(1, 4), (2, 1)]), np.array([(2, 1)])).tolist() == [False, True]
+    assert are_among(np.array([(2, 1)]), np.array([(1, 4)])).tolist() == [False]
     assert are_among(pairs, others[:0]).tolist() == 4 * [False]
     assert are_among(pairs[:0], others).tolist() == []
