@@ -8,7 +8,7 @@ Where data enters:
 - ``polygons``: the caller's mesh with its polygons cut into triangles
 - ``ears``: how polygons are cut into triangles
 - ``copies``: faces that lie on others with the same corners
-- ``grounds``: flat pieces on which the rest stands
+- ``grounds``: floors, plinths and backdrops, on which the rest stands
 - ``borders``: border vertices that are one, apart at seams only
 
 How polygons hang together:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grounds: flat pieces on which the rest of a mesh stands, such as a floor or a plate.
+"""Grounds: pieces on which, or before or in which, the rest of a mesh stands, such as a floor, a plinth or a backdrop.
 
 A floor has most of the area of a mesh, and beside it whatever stands on it is too small to be cut: a person on a floor
 three times as wide was one part. So a ground is left out before anything is measured, and is a part of its own.
@@ -16,15 +16,16 @@ from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import TriMesh, vertex_components
 
-# A ground has at least this share of the area, and what stands on it at least a millionth.
+# A ground has at least this share of the area, and the rest at least a millionth.
 SHARE, LEAST = 0.2, 1e-6
-# Its points are spread about its plane less than within it by this factor, if it is a sheet, or by the second, if it
-# has no more than this share of the faces: doors and shields are as thick as a slab, but have faces of their own.
-SHEET, SLAB, FEW_FACES = 0.05, 0.4, 0.05
-# Its sides, multiplied, are so many times those of what stands on it.
-WIDER = 3.0
-# What stands on it is so high, at least, in units of the root of its sides, multiplied, and no more than a share of it
-# is on the other side: a table top, on which a vase stands, is no ground, nor is a clock, on which its hands lie.
+# Its two long sides are not shorter than those of the rest and, multiplied, so many times as large. Of no more than a
+# share of the faces that is all: a backdrop, a dome, a room.
+WIDER, FEW_FACES = 3.0, 0.05
+# Otherwise these are the sides that lie across, and it is flat: its points are spread about its plane less than within
+# it by the first of these, or by the second with few faces. Doors and shields are slabs of many.
+SHEET, SLAB = 0.05, 0.4
+# The rest is so high then, at least, in units of the root of its sides across, multiplied, and no more than a share of
+# its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
 HIGH, BELOW = 0.1, 0.05
 
 
@@ -53,7 +54,7 @@ class Standing:
 
 
 def find_standing(given: PolygonMesh) -> Standing | None:
-    """Find what stands on grounds: pieces that are flat, and on one side of which nearly all else is.
+    """Find what stands on grounds.
 
     Without one that was found there may be another, such as a wall behind what stands on a floor.
 
@@ -96,19 +97,23 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
 
 
 def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
-    """Whether some faces are flat and wide, and others stand on one side of them; mine, others : (m,) bool."""
+    """Whether some faces are large beside others, and plain, or flat with the others on one side; both : (m,) bool."""
     weight = np.repeat(mesh.face_area[mine], 3)
     corners = mesh.corners[mine].reshape(-1, 3)
     middle = weighted_sum(weight, corners) / weight.sum()
     spread, axes = np.linalg.eigh(second_moments(corners - middle, weight))
-    flat = SLAB if mine.sum() <= FEW_FACES * (mine | others).sum() else SHEET
-    if spread[0] > flat**2 * spread[1]:
+    own, its = (inner_products(mesh.corners[some].reshape(-1, 3) - middle, axes.T) for some in (mine, others))
+    sides, its_sides = np.ptp(own, axis=0), np.ptp(its, axis=0)
+    few = mine.sum() <= FEW_FACES * (mine | others).sum()
+    if few and _is_larger(np.sort(sides)[1:], np.sort(its_sides)[1:]):
+        return True
+    if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:]):
         return False
-    height, *across = inner_products(corners - middle, axes.T).T
-    its_height, *its_across = inner_products(mesh.corners[others].reshape(-1, 3) - middle, axes.T).T
-    sides, its_sides = (np.ptp(along[0]) * np.ptp(along[1]) for along in (across, its_across))
-    if sides < WIDER * its_sides or np.ptp(its_height) < HIGH * np.sqrt(its_sides):
-        return False
-    its_weight = np.repeat(mesh.face_area[others], 3)
-    beyond = [its_weight[side * its_height > np.abs(height).max()].sum() for side in (-1, 1)]
-    return bool(min(beyond) <= BELOW * its_weight.sum())
+    its_weight, thickness = np.repeat(mesh.face_area[others], 3), np.abs(own[:, 0]).max()
+    beyond = min(its_weight[side * its[:, 0] > thickness].sum() for side in (-1, 1))
+    return bool(its_sides[0] >= HIGH * np.sqrt(its_sides[1:].prod()) and beyond <= BELOW * its_weight.sum())
+
+
+def _is_larger(sides: np.ndarray, its_sides: np.ndarray) -> bool:
+    """Whether a rectangle of two sides has room for another, (2,) each, and for more."""
+    return bool((sides >= its_sides).all() and sides.prod() >= WIDER * its_sides.prod())

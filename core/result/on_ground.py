@@ -88,5 +88,5 @@ def _notes(found: Decomposition, working: WorkingMesh, n_grounds: int) -> tuple[
     """The notes on the whole mesh, and those on what stands there that are not on its mesh."""
     messages = {note.message for note in working.notes}
     others = (note for note in found.notes if not (isinstance(note, Sentence) and note.message in messages))
-    ground = Sentence("What stands on {n} flat {n:piece|pieces} is decomposed without {n:it|them}.", n=n_grounds)
+    ground = Sentence("The rest is decomposed without {n} large plain {n:piece|pieces}, such as a floor.", n=n_grounds)
     return (*working.notes, *others, ground)

@@ -770,8 +770,8 @@ TEXTS = {
         "{n} Stücke, die sich (fast) berühren, bilden einen Körper; mit Stücke: Getrennt wird jedes für sich zerlegt.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} Stücke bilden {bodies} Körper; was sich berührt, wird gemeinsam zerlegt.",
-    "What stands on {n} flat {n:piece|pieces} is decomposed without {n:it|them}.":
-        "Was auf flachen Stücken steht, wird ohne diese zerlegt ({n}).",
+    "The rest is decomposed without {n} large plain {n:piece|pieces}, such as a floor.":
+        "Große schlichte Stücke wie ein Boden ({n}) bleiben außen vor; der Rest wird ohne sie zerlegt.",
     "{n} small {n:body is one part|bodies are one part each}.": "Kleine Körper, die je ein einziges Teil sind: {n}.",
     "{n} of the bodies {n:is|are} so even that nothing protrudes.":
         "Körper, die so gleichmäßig sind, dass nichts vorsteht: {n}.",

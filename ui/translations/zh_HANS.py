@@ -707,8 +707,8 @@ TEXTS = {
         "{n} 个相互接触或几乎接触的块构成一个整体；“块：各自”会分别分解每一块。",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} 个块构成 {bodies} 个整体；相互接触的块一起分解。",
-    "What stands on {n} flat {n:piece|pieces} is decomposed without {n:it|them}.":
-        "立在 {n} 个平坦块上的部分单独分解，不含这些块。",
+    "The rest is decomposed without {n} large plain {n:piece|pieces}, such as a floor.":
+        "分解其余部分时不含 {n} 个大而简单的块（如地面）。",
     "{n} small {n:body is one part|bodies are one part each}.": "{n} 个小整体各为一个部件。",
     "{n} of the bodies {n:is|are} so even that nothing protrudes.": "其中 {n} 个整体过于均匀，没有突出部分。",
     "{n} loose parts are decomposed each on its own.": "{n} 个松散块各自单独分解。",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grounds: what stands on a floor or a plinth has the parts that it has alone."""
+"""Grounds: what stands on a floor, on a plinth or before a backdrop has the parts that it has alone."""
 
 import numpy as np
 import pytest
@@ -32,9 +32,20 @@ def has_ground(*things):
     return find_standing(PolygonMesh.of(*shapes.together(*things))) is not None
 
 
+def backdrop(width):
+    """A floor that rises to a wall behind, in one piece."""
+    along = np.array([(-1, 0), (0.5, 0), (0.8, 0.1), (1, 0.4), (1, 2)]) * width / 2
+    x, (y, z) = np.array([[-width / 2], [width / 2]]), along.T
+    vertices = np.stack([np.broadcast_to(a, (2, 5)) for a in (x, y, z)], axis=-1).reshape(-1, 3)
+    a = np.arange(4)
+    return shapes.Shape(vertices, np.concatenate([np.stack([a, a + 5, a + 6], axis=1),
+                                                  np.stack([a, a + 6, a + 1], axis=1)]))
+
+
 @pytest.mark.parametrize("floor", [
-    sheet(5), sheet(40), sheet(200), sheet(12, 30), sheet(5, depth=0.6), sheet(15, depth=2)],
-    ids=["near", "wide", "very wide", "of many faces", "plinth", "slab"])
+    sheet(5), sheet(40), sheet(200), sheet(12, 30), sheet(5, depth=0.6), sheet(15, depth=2), backdrop(15),
+    shapes.icosphere(1, 20), shapes.moved(shapes.box((15, 15, 10)), (-7.5, -7.5, 0))],
+    ids=["near", "wide", "very wide", "of many faces", "plinth", "slab", "backdrop", "dome", "room"])
 def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
     """On a floor three times as wide a person was one part."""
     alone, n = decompose(*tree()), len(tree().faces)
@@ -51,7 +62,7 @@ def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
         assert found.parts(0).count == 1
         assert found.parts(n_parts=2).labels.tolist() in ([0] * n + [1] * (len(labels) - n),
                                                            [1] * n + [0] * (len(labels) - n))
-        assert "What stands on 1 flat piece is decomposed without it." in map(str, found.notes)
+        assert "The rest is decomposed without 1 large plain piece, such as a floor." in map(str, found.notes)
         assert (found.field[len(tree().vertices):] == 0).all()
         assert found.parts().share.sum() == pytest.approx(1)
 
@@ -59,7 +70,7 @@ def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
 def test_with_pieces_separate_a_ground_is_a_piece_like_any_other():
     shape = shapes.together(tree(), sheet(40))
     found = decompose(*shape, Parameters(pieces=SEPARATE))
-    assert not any("flat" in str(note) for note in found.notes)
+    assert not any("floor" in str(note) for note in found.notes)
 
 
 def test_floor_and_wall_are_grounds():
@@ -68,7 +79,7 @@ def test_floor_and_wall_are_grounds():
     labels = found.parts().labels
     np.testing.assert_array_equal(found.candidates[:len(tree().faces)], decompose(*tree()).candidates)
     assert len(set(labels[-4:])) == 2
-    assert "What stands on 2 flat pieces is decomposed without them." in map(str, found.notes)
+    assert "The rest is decomposed without 2 large plain pieces, such as a floor." in map(str, found.notes)
 
 
 def test_things_on_a_floor_are_parts_of_their_own():
