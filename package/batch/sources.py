@@ -40,7 +40,7 @@ class Source:
 
 
 def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root: Path | None = None,
-                 unread: Callable[[OSError], object] | None = None) -> list[Source]:
+                 unread: Callable[[OSError], object] | None = None, gone: Iterable[str] = ()) -> list[Source]:
     """Find all models.
 
     Parameters
@@ -56,6 +56,8 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     unread : callable(error), optional
         Told of each folder below a place, or on the way of a pattern, in which nobody can look, and of each model
         that is left out as another one has its name.
+    gone : iterable of str, optional
+        Files that are not there, but were or will be: the others have the names that they have beside these.
 
     Returns
     -------
@@ -74,7 +76,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         raise SourceError(Sentence("There is no model to decompose."))
     if root is None:
         # Not that of the models: all would have other names, and be done again, when one comes or goes.
-        root = Path(os.path.commonpath([_folder_of(place) for place in places]))
+        root = Path(os.path.commonpath([_folder_of(place) for place in (*places, *gone)]))
     root = Path(os.path.abspath(root))
     outside = sorted(path for path in paths if not path.is_relative_to(root))
     if outside:

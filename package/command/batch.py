@@ -130,8 +130,9 @@ class _Batch:
         self.unread: list[str] = []
         # Without a Blender, too: that a model could not be read is to be seen in the table.
         kinds = formats() + BY_BLENDER
-        places = [*options.models, *self._there(listed, kinds)]
-        self.sources = find_sources(places, kinds, self.out, options.root, self._unread)
+        gone = self._gone(listed, kinds)
+        places = [*options.models, *(place for place in listed if place not in gone)]
+        self.sources = find_sources(places, kinds, self.out, options.root, self._unread, gone)
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
         self.blender = options.blender
@@ -141,14 +142,13 @@ class _Batch:
         self.kept = 0
         self.failed: dict[str, tuple[str, str]] = {}  # status and reason, by the name of the model
 
-    def _there(self, listed: list[str], kinds: tuple[str, ...]) -> list[str]:
-        """The places of lists without the models that have gone, which it names: an archive is not refused for them."""
+    def _gone(self, listed: list[str], kinds: tuple[str, ...]) -> set[str]:
+        """The places of lists where a model was, which it names: an archive is not refused for them."""
         gone = [place for place in listed if is_gone(place, kinds)]
-        known = set(gone)
         if gone:
             self.unread += map(readable, gone)
             say(f"{len(gone)} of {len(listed)} in the list cannot be found (first: {gone[0]}).")
-        return [place for place in listed if place not in known]
+        return set(gone)
 
     def _unread(self, error: OSError) -> None:
         """Say that a folder or a model is left out; a folder that is gone by now has no models."""

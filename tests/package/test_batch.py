@@ -987,7 +987,7 @@ def test_places_without_models_are_refused(places, root, words, models, tmp_path
 def test_what_is_gone_of_a_list_costs_only_itself(tree, tmp_path, capsys):
     """A batch of a whole archive was refused for one model that somebody had removed since. What is done stays."""
     model = save(tree, tmp_path / "in" / "tree.ply")
-    do_model(job(model, tmp_path / "out" / "models" / "tree.ply"))
+    do_model({**job(model, tmp_path / "out" / "models" / "in" / "tree.ply"), "name": "in/tree.ply"})
     gone = [str(tmp_path / name) for name in ("in/gone.ply", "none/gone.obj", "x" * 300 + ".ply")]
     (tmp_path / "list.txt").write_text("\n".join([*gone, str(model)]))
     parser = argparse.ArgumentParser()
@@ -998,12 +998,13 @@ def test_what_is_gone_of_a_list_costs_only_itself(tree, tmp_path, capsys):
 
     status, said = run(), capsys.readouterr()
     answer = json.loads(said.out)
-    assert (status, answer["models"], answer["unread"]) == (1, {"done": 1}, gone)
+    # It has the name that it has beside those that are gone.
+    assert (status, answer["models"], answer["kept"], answer["unread"]) == (1, {"done": 1}, 1, gone)
     assert f"3 of 4 in the list cannot be found (first: {gone[0]})." in said.err
     model.unlink()  # as where the disk with all of them is not there
     with pytest.raises(SourceError, match="no model"):
         run()
-    assert (tmp_path / "out" / "models" / "tree.ply" / "labels.npy").is_file()
+    assert (tmp_path / "out" / "models" / "in" / "tree.ply" / "labels.npy").is_file()
     (tmp_path / "list.txt").write_text("no folder")
     with pytest.raises(SourceError, match="no file and no folder"):
         run()
