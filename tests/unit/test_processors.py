@@ -2,6 +2,8 @@
 """How many processors a run may keep busy."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 
@@ -24,3 +26,15 @@ def test_a_process_bound_to_one_processor_has_one(monkeypatch):
         assert n_processors() == 1
     finally:
         os.sched_setaffinity(0, before)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="systems differ in what they can limit")
+@pytest.mark.parametrize("kind", ["RLIMIT_AS", "RLIMIT_DATA"])
+def test_where_memory_is_limited_there_are_no_more_threads(kind):
+    """A thread without memory ended without a word, and a search of SciPy's crashed on what it had not found."""
+    code = f"""import resource; from core.processors import n_processors
+_, hard = resource.getrlimit(resource.{kind}); resource.setrlimit(resource.{kind}, (2**40, hard)); print(n_processors())
+"""
+    root = os.path.dirname(os.path.dirname(sys.modules[n_processors.__module__].__file__))
+    done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
+    assert done.stdout == "1\n"
