@@ -10,6 +10,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from ..core.fbx_nodes import is_believable
+
 _USD = dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), bpy.ops.wm.usd_import)
 #: The importer of each kind of model that can be read besides scenes.
 IMPORTERS = {
@@ -19,6 +21,7 @@ IMPORTERS = {
 }
 #: Kinds of models whose lengths are in no unit.
 WITHOUT_UNIT = (".obj", ".ply", ".stl", ".abc")
+_DAMAGED = "it is damaged or cut short"
 
 
 def import_model(path: Path) -> list[bpy.types.Object]:
@@ -31,6 +34,8 @@ def import_model(path: Path) -> list[bpy.types.Object]:
         _check_end(path)
     elif kind == ".ply":
         _check_counts(path)
+    elif kind == ".fbx" and not is_believable(path):
+        raise RuntimeError(_DAMAGED)
     try:
         ended = IMPORTERS[kind](filepath=str(path.resolve()))
     except AttributeError as error:  # the operator is not there: an add-on is off, or Blender was built without
@@ -73,7 +78,7 @@ def _check_counts(path: Path) -> None:
             if line.startswith(b"element"):
                 count = re.match(rb"\S+\s+\S+\s+([+-]?\d{1,18})(?!\d)", line)
                 if count is None or abs(int(count[1])) > size:
-                    raise RuntimeError("it is damaged or cut short")
+                    raise RuntimeError(_DAMAGED)
 
 
 def _mend_corners(mesh: bpy.types.Mesh) -> None:

@@ -36,6 +36,7 @@ What all of them, and who calls them, may use:
 - ``memory``: what a process of its own tells its allocator, and how a lack of memory shows
 - ``file_names``: such as every file system takes
 - ``atomic_files``: several files that get to their places all or none
+- ``fbx_nodes``: whether Blender can read an .fbx without all memory
 - ``metrics``: how far two labelings of one mesh are from each other
 """
 

@@ -20,6 +20,7 @@ import numpy as np
 from .core.arrays.int64 import arange, cumsum
 from .core.atomic_files import HIDDEN
 from .core.errors import ReebError
+from .core.fbx_nodes import is_believable
 from .core.file_names import kind_of, readable
 from .core.memory import lacks_memory
 from .core.mesh.arguments import corners, positions
@@ -293,6 +294,7 @@ def _read_by_blender(path: Path, blender: str | Path | None,
     if blender is None:
         raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender, in "
                                      "Python with blender=.", path=path))
+    _check_nodes(path)
     exporter = files(__package__) / "blender_export.py"
     with tempfile.TemporaryDirectory(prefix=HIDDEN, dir=temporary) as folder, as_file(exporter) as script:
         out = Path(folder) / "model.npz"
@@ -319,6 +321,16 @@ def _read_by_blender(path: Path, blender: str | Path | None,
                 return data["vertices"], data["triangles"], data["polygon"]
         except (OSError, ValueError, KeyError) as error:
             raise _unreadable(path, f"{type(error).__name__}: {error}") from error
+
+
+def _check_nodes(path: Path) -> None:
+    """Raise ModelFileError for an .fbx at which a Blender would take all memory."""
+    try:
+        damaged = path.suffix.lower() == ".fbx" and not is_believable(path)
+    except OSError as error:
+        raise _unreadable(path, error.strerror or str(error)) from error
+    if damaged:
+        raise _unreadable(path, "it is damaged or cut short")
 
 
 def _complaint(out: Path, done: subprocess.CompletedProcess[str], blender: str | Path) -> str:

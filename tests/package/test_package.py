@@ -4,6 +4,7 @@
 import gc
 import os
 import re
+import struct
 import subprocess
 import sys
 import warnings
@@ -353,3 +354,10 @@ def test_what_is_taken_for_faces_by_mistake_says_what_to_give(tree):
     with pytest.raises(reeb_parts.MeshError, match="Scene is no mesh: decompose what its to_mesh"):
         reeb_parts.decompose(trimesh.Scene([mesh]))
     assert reeb_parts.decompose(trimesh.Scene([mesh]).to_mesh()).n_faces == len(tree.faces)
+
+
+def test_an_fbx_that_would_take_all_memory_is_refused_before_a_blender_starts(tmp_path):
+    path = tmp_path / "node.fbx"
+    path.write_bytes(b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<4IB", 7400, 50, 2**31, 0, 0) + bytes(20))
+    with pytest.raises(reeb_parts.ModelFileError, match=r"node\.fbx could not be read: it is damaged or cut short"):
+        reeb_parts.read_model(path, "no blender")

@@ -5,6 +5,7 @@ A Blender may be built without either, as Debian's is; it says so.
 """
 
 import runpy
+import struct
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -171,9 +172,27 @@ def test_a_ply_with_an_unusual_head_is_read(imported, tmp_path, before, after):
     assert len(imported(path)["head"].data.polygons) == 4
 
 
-@pytest.mark.parametrize("kind", ["ply", "abc"])
+def test_an_fbx_with_a_damaged_node_costs_only_itself(run, model, tmp_path):
+    """Blender's importer took so much memory that the run was ended, or a minute to say why not."""
+    path = tmp_path / "node.fbx"
+    path.write_bytes(b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<4IB", 7400, 50, 2**31, 0, 0) + bytes(20))
+    ended = run(path, model)
+    assert ended.status == 1
+    assert ended.answer["problems"] == [
+        {"name": str(path), "problem": f"{path} could not be read: it is damaged or cut short"}]
+    assert [mesh["model"] for mesh in ended.answer["objects"]] == [str(model)]
+
+
+def test_an_fbx_is_read(imported, tmp_path):
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.export_scene.fbx(filepath=str(tmp_path / "cube.fbx"))
+    assert len(imported(tmp_path / "cube.fbx")["Cube"].data.polygons) == 6
+
+
+@pytest.mark.parametrize("kind", ["ply", "abc", "fbx"])
 def test_a_file_that_may_not_be_read_is_one_sentence(run, tmp_path, monkeypatch, kind):
-    def fail(path, mode):
+    def fail(path, mode, *more):
         raise PermissionError(13, "Permission denied")
 
     path = tmp_path / f"closed.{kind}"
