@@ -7,9 +7,14 @@ without it.
 
 
 def register() -> None:
-    """Called by Blender when the extension is switched on."""
+    """Called by Blender when the extension is switched on; raises RuntimeError if it is, from another repository."""
+    import bpy
+
     from . import batch, operators, scene, ui, viewport
 
+    # Classes of the second copy would take the places of those of the first, which could not be switched off any more.
+    if hasattr(bpy.types, "REEB_PARTS_OT_decompose"):
+        raise RuntimeError("Reeb Parts of another repository is enabled: disable that first.")
     for folder in (scene, viewport, operators, ui, batch):
         folder.register()
 

@@ -2,7 +2,10 @@
 """Properties that mirror the parameters, and an extension that comes and goes without a trace."""
 
 import importlib
+import os
+import sys
 from dataclasses import fields
+from pathlib import Path
 
 import addon_utils
 import bpy
@@ -107,6 +110,28 @@ def test_switched_off_leaves_nothing_and_on_again_works(package, obj):
         addon_utils.enable(package)
     assert _ours() == before
     assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links are for administrators there")
+def test_a_second_copy_is_not_switched_on(package, obj, tmp_path):
+    """As one of a studio's repository; half of the first was replaced, and neither could be switched off any more."""
+    before = _ours()
+    (tmp_path / "reeb_parts").symlink_to(Path(sys.modules[package].__file__).parent)
+    repositories, said = bpy.context.preferences.extensions.repos, []
+    second = repositories.new(name="studio", module="studio", custom_directory=str(tmp_path))
+    try:
+        other = addon_utils.enable("bl_ext.studio.reeb_parts", handle_error=lambda error: said.append(str(error)))
+        assert other is None
+    finally:
+        repositories.remove(second)
+    assert said == ["Reeb Parts of another repository is enabled: disable that first."]
+    assert _ours() == before
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    addon_utils.disable(package)
+    try:
+        assert _ours()["types"] == []
+    finally:
+        addon_utils.enable(package)
 
 
 def test_switched_off_after_a_script_has_cleared_the_handlers(package):
