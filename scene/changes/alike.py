@@ -192,13 +192,17 @@ def _free_pair(name: str, side: int, taken: set[str], carried: set[str]) -> tupl
 def _corresponding(source: bpy.types.Object, target: bpy.types.Object) -> tuple[list[int], np.ndarray]:
     """Number of the source's part for each part of the target, and how sure that is, (count,) 0..1."""
     from ...core.mesh.labels import majority
+    from ...core.mesh.triangles import TriMesh
     from ...core.uses.correspondence import carried_labels, sample_surface
 
     from_parts, to_parts = (store.load(obj.data).shown_parts() for obj in (source, target))
     shapes = [bridge.read_shape(obj) for obj in (source, target)]
     if np.array_equal(shapes[0].triangles, shapes[1].triangles):
-        # The same mesh in another pose: face by face.
-        label = majority(to_parts.parts.labels, from_parts.parts.labels, shapes[1].face_area, to_parts.parts.count)
+        # The same mesh in another pose: triangle by triangle, as one of them may have been divided into these.
+        labels = [numbered.parts.labels[shape.polygon]
+                  for numbered, shape in zip((from_parts, to_parts), shapes, strict=True)]
+        area = TriMesh(shapes[1].vertices, shapes[1].triangles).face_area
+        label = majority(labels[1], labels[0], area, to_parts.parts.count)
         return from_parts.numbers[label].tolist(), np.ones(len(label))
     samples = [sample_surface(shape.vertices, shape.triangles, shape.polygon) for shape in shapes]
     label, share = carried_labels(samples[0], from_parts.parts.labels, samples[1], to_parts.parts.labels)

@@ -87,6 +87,28 @@ def test_of_the_same_mesh_every_face_keeps_its_name_and_parts_without_a_name_kee
     assert sum(a != b for a, b in zip(before, given, strict=True)) in (1, 2)  # with its mirror image
 
 
+@pytest.mark.parametrize("from_triangles", [False, True])
+def test_a_model_and_its_triangles_give_each_other_names(make, from_triangles):
+    """Those triangles are the model's, but they are more than its faces: that was a traceback."""
+    vertices, quads = shapes.table_of_blocks()
+    one = make((vertices, quads), "Quads")
+    one.data.calc_loop_triangles()
+    other = make((vertices, [triangle.vertices[:] for triangle in one.data.loop_triangles]), "Triangles")
+    if from_triangles:
+        one, other = other, one
+    for obj in (other, one):
+        activate(obj)
+        bpy.ops.reeb_parts.decompose()
+    for part in one.data.reeb_parts.parts:
+        part.name = f"Own {part.number}"
+    other.select_set(True)
+    assert bpy.ops.reeb_parts.names_from_active() == {"FINISHED"}
+    places = middles(one)
+    for part, middle in ((part, middles(other)[part.number]) for part in other.data.reeb_parts.parts):
+        nearest = min(places, key=lambda number: np.linalg.norm(places[number] - middle))
+        assert part.name == f"Own {nearest}"
+
+
 def test_several_parts_that_come_from_one_get_names_that_differ(figures):
     first, second = figures
     first.data.reeb_parts.n_parts = 1
