@@ -34,9 +34,9 @@ def lacks_memory(words: str) -> bool:
     """Whether the words of an error, or the last ones of a process, mean that there was no memory left.
 
     Not everything says so by a MemoryError: a thread gets no stack, a library is not mapped, C++ and OpenBLAS end the
-    process, an extension module fails without a word, and Python loses its standard error where it has no room for the
-    words of a MemoryError.
+    process, an extension module fails without a word, Blender says which array is not there before it crashes, and
+    Python loses its standard error where it has no room for the words of a MemoryError.
     """
     return re.search("can't start new thread|MemoryError|Memory allocation|Cannot allocate memory|bad_alloc|"
                      "failed to map segment|cannot map zero-fill pages|error return without exception set|"
-                     "lost sys.stderr", words) is not None
+                     "alloc returns null|lost sys.stderr", words) is not None

@@ -118,6 +118,8 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
         It is of a kind that nothing here reads; of those that Blender reads, without one that can.
     CrashedReaderError
         The Blender that read it crashed.
+    MemoryError
+        There is not enough memory, here or for that Blender.
     """
     path = Path(path)
     kind = path.suffix.lower()
@@ -308,6 +310,8 @@ def _read_by_blender(path: Path, blender: str | Path | None,
         except OSError as error:
             raise NoReaderError(Sentence("{path} could not be read, as {blender} could not be started: {reason}",
                                          path=path, blender=blender, reason=error.strerror or error)) from error
+        if done.returncode and lacks_memory(done.stderr + done.stdout):
+            raise MemoryError
         if done.returncode < 0:
             raise CrashedReaderError(Sentence("{path} could not be read, as {blender} crashed: {reason}", path=path,
                                               blender=blender, reason=signal.strsignal(-done.returncode)))

@@ -288,6 +288,23 @@ def test_a_blender_that_crashes_costs_one_model(tmp_path):
     assert not is_done(tmp_path / "model.abc", tmp_path / "out", Settings(Parameters()))
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals end processes there")
+@pytest.mark.parametrize("words", [
+    "echo 'numpy._core._exceptions._ArrayMemoryError: Unable to allocate 3 GiB' >&2; exit 1",
+    "echo 'MemoryError' >&2; exit 1",
+    "echo 'Malloc returns null: len=16000000 in from_uninitialized, total 106634832' >&2; kill -SEGV $$",
+])
+def test_a_model_for_which_a_blender_has_no_memory_is_tried_again(words, process, tmp_path):
+    """It counted as unreadable, and was left alone where there was memory for it, too."""
+    blender = tmp_path / "blender"
+    blender.write_text(f"#!/bin/sh\n{words}\n")
+    blender.chmod(0o755)
+    (tmp_path / "model.abc").write_bytes(b"Ogawa")
+    answer = process.run(job(tmp_path / "model.abc", tmp_path / "out") | {"blender": str(blender)}, 60.0)
+    assert answer["status"] == "memory"
+    assert not is_done(tmp_path / "model.abc", tmp_path / "out", Settings(Parameters()))
+
+
 def test_a_blender_is_found_from_other_working_folders(address, reeb_parts_command, tmp_path):
     """It was looked for below that of each worker of a cluster."""
     blender = tmp_path / "tools" / "blender"

@@ -41,6 +41,7 @@ def test_an_array_takes_the_place_of_one_that_was_freed():
     ("ImportError: libgfortran.so.5: failed to map segment from shared object", True),
     ("ImportError: _reordering.so: cannot map zero-fill pages", True),
     ("SystemError: error return without exception set", True),
+    ("Calloc returns null: len=32000000 in from_value, total 58597540", True),
     ("lost sys.stderr", True), ("Fatal Python error: Segmentation fault", False), ("", False),
 ])
 def test_a_lack_of_memory_has_many_words(words, lacks):
