@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import takewhile
 from pathlib import Path
 
@@ -49,6 +51,19 @@ def import_model(path: Path) -> list[bpy.types.Object]:
     for obj in meshes:
         _mend_corners(obj.data)
     return meshes
+
+
+@contextmanager
+def all_or_nothing() -> Iterator[None]:
+    """Remove what is made inside if something goes wrong there: importers leave what they had of a damaged model."""
+    there = {block.session_uid for block in bpy.data.user_map()}
+    try:
+        yield
+    except BaseException:
+        # Shape keys go with their meshes.
+        bpy.data.batch_remove([block for block in bpy.data.user_map()
+                               if block.session_uid not in there and not isinstance(block, bpy.types.Key)])
+        raise
 
 
 def _check_end(path: Path) -> None:

@@ -16,7 +16,7 @@ from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
 from ..scene.pieces import origins
 from ..scene.saving.run_files import reason
-from .importers import IMPORTERS, WITHOUT_UNIT, import_model
+from .importers import IMPORTERS, WITHOUT_UNIT, all_or_nothing, import_model
 from .messages import problem
 
 #: Lengths of units in meters, with what Blender calls them.
@@ -147,10 +147,11 @@ def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
 def _imported(path: Path) -> list:
     """Import a model into the scene; returns its meshes. Raises SceneError."""
     _check_model(path, tuple(IMPORTERS))
-    try:
-        meshes = import_model(path)
-    except (RuntimeError, OSError) as error:  # the former is what Blender's own operators report
-        raise SceneError(f"{path} could not be read: {reason(error)}") from error
-    if not meshes:
-        raise SceneError(f"There is no mesh in {path}.")
+    with all_or_nothing():
+        try:
+            meshes = import_model(path)
+        except (RuntimeError, OSError) as error:  # the former is what Blender's own operators report
+            raise SceneError(f"{path} could not be read: {reason(error)}") from error
+        if not meshes:
+            raise SceneError(f"There is no mesh in {path}.")
     return meshes

@@ -191,6 +191,30 @@ def test_a_lack_of_memory_while_files_are_written_is_one_sentence(package, run, 
     assert (tmp_path / "x.blend").read_text() == "an earlier one"
 
 
+@pytest.mark.parametrize("damage", ["a mesh of two", "no mesh at all"])
+def test_nothing_of_a_model_that_cannot_be_read_is_saved_with_the_others(run, model, tmp_path, damage):
+    """Importers leave what they had read by then, or what is no mesh."""
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.ops.object.camera_add()
+    if damage == "a mesh of two":
+        bpy.ops.mesh.primitive_cube_add()
+        bpy.ops.mesh.primitive_monkey_add()
+        bpy.context.object.shape_key_add()
+    path = tmp_path / "two.gltf"
+    bpy.ops.export_scene.gltf(filepath=str(path), export_format="GLTF_SEPARATE", export_cameras=True)
+    described = json.loads(path.read_text())
+    for mesh in described.get("meshes", ())[1:]:
+        described["accessors"][mesh["primitives"][0]["attributes"]["POSITION"]]["bufferView"] = 99
+    path.write_text(json.dumps(described))
+    ended = run(path, model, "--no-graph", "--save", tmp_path / "x.blend")
+    assert ended.status == 1
+    assert [problem["name"] for problem in ended.answer["problems"]] == [str(path)]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "x.blend"))
+    assert [obj.name for obj in bpy.data.objects] == ["Tree"]
+    assert len(bpy.data.meshes) == 1
+    assert not bpy.data.cameras
+
+
 def test_several_models_and_one_that_cannot_be_read_costs_only_itself(run, model, tmp_path):
     other, broken, missing = (tmp_path / name for name in ("other.obj", "empty.obj", "missing.obj"))
     other.write_bytes(model.read_bytes())
