@@ -67,7 +67,8 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     Raises
     ------
     SourceError
-        A place is none, there is no model anywhere, a model lies outside the root, or where its results belong.
+        A place is none, there is no model anywhere, places are on several drives, a model lies outside the root, or
+        where its results belong.
     """
     out = Path(os.path.abspath(out))
     places = list(places)
@@ -76,7 +77,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         raise SourceError(Sentence("There is no model to decompose."))
     if root is None:
         # Not that of the models: all would have other names, and be done again, when one comes or goes.
-        root = Path(os.path.commonpath([_folder_of(place) for place in (*places, *gone)]))
+        root = _common_folder([*places, *gone])
     root = Path(os.path.abspath(root))
     outside = sorted(path for path in paths if not path.is_relative_to(root))
     if outside:
@@ -121,6 +122,15 @@ def _check_folders(sources: list[Source], out: Path) -> None:
     if lost:
         raise SourceError(Sentence("Results would take the place of {n} {n:model|models} (first: {first}). Choose "
                                    "another folder for --out.", n=len(lost), first=lost[0]))
+
+
+def _common_folder(places: list[str]) -> Path:
+    """The innermost folder that holds all places; raises SourceError if there is none."""
+    try:
+        return Path(os.path.commonpath([_folder_of(place) for place in places]))
+    except ValueError as error:  # on Windows
+        raise SourceError(Sentence("Models are on several drives: give each drive a run, and an --out, of its own.")
+                          ) from error
 
 
 def _folder_of(place: str) -> str:

@@ -1001,6 +1001,16 @@ def test_places_without_models_are_refused(places, root, words, models, tmp_path
         find_sources(places, (".ply",), tmp_path, root and models / root)
 
 
+def test_models_on_several_drives_are_one_sentence(models, tmp_path, monkeypatch):
+    """On Windows, where no folder holds them all: that was a traceback."""
+    def fail(paths):
+        raise ValueError("Paths don't have the same drive")
+
+    monkeypatch.setattr(os.path, "commonpath", fail)
+    with pytest.raises(SourceError, match="Models are on several drives"):
+        find_sources([str(models)], (".ply",), tmp_path)
+
+
 def test_what_is_gone_of_a_list_costs_only_itself(tree, tmp_path, capsys):
     """A batch of a whole archive was refused for one model that somebody had removed since. What is done stays."""
     model = save(tree, tmp_path / "in" / "tree.ply")
