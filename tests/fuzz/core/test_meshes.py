@@ -182,7 +182,7 @@ def assert_same_again(case, result, vertices, faces, polygon):
     """The same mesh has the same parts, twice as large, too, unless it is so dense that a coarser copy is measured."""
     if case["seed"] % 4:  # it takes as long again
         return
-    fine = bodies(repair(PolygonMesh.of(vertices, faces, polygon)), True, 0.0)
+    fine = bodies(repair(PolygonMesh.of(vertices, faces, polygon)), True, 0.0).decomposed
     larger = 2 if max((body.mesh.n_vertices for body in fine), default=0) <= agd.FIELD_VERTICES else 1
     again = decompose(larger * vertices, faces, Parameters(**case["parameters"]), polygon,
                       hints=hints_of(case, faces, polygon))
