@@ -60,7 +60,8 @@ class REEB_PARTS_OT_decompose(
         obj = targets.active_object(context)
         if obj is None or obj.type != "MESH":
             able = obj is not None and targets.can_become_mesh(obj)
-            cls.poll_message_set(targets.to_become_mesh(obj) if able else rpt_("Select a mesh first"))
+            cls.poll_message_set(targets.to_become_mesh(obj) if able
+                                 else targets.to_be_active(context) or rpt_("Select a mesh first"))
             # Scripts are let through, to be told what is wrong in a sentence.
             return bpy.app.background
         if jobs.current is not None:

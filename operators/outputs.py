@@ -8,7 +8,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import modes, outputs, property_updates, targets
+from ..scene import modes, outputs, property_updates, store, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
@@ -28,6 +28,10 @@ class OutputOperator(SelectedPartsOperator):
         name="Take Back", options={"SKIP_SAVE"},
         description="Take them away again; what was there before is back",
     )
+
+    def look(self, obj: bpy.types.Object) -> Stored:
+        # What is taken away need not be up to date.
+        return store.last(obj.data) if self.remove else super().look(obj)
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         output, done, undone = self.output

@@ -169,6 +169,14 @@ def to_become_mesh(obj: bpy.types.Object) -> str:
                 ).format(name=obj.name, kind=_kind(obj))
 
 
+def to_be_active(context: bpy.types.Context) -> str:
+    """What to do where meshes are selected and something else is the active object; nothing in other cases."""
+    active = active_object(context)
+    if active is None or active.type == "MESH" or all(obj.type != "MESH" for obj in selected_objects(context)):
+        return ""
+    return rpt_("{name} is the active object, and not a mesh. Hold Shift and click the mesh.").format(name=active.name)
+
+
 def _source(data: bpy.types.ID) -> str:
     """The file that a data block is linked from."""
     return data.library.filepath if data.library else rpt_("another file")

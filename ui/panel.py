@@ -177,7 +177,7 @@ def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, room: Roo
     elif obj is not None and targets.can_become_mesh(obj):
         text = targets.to_become_mesh(obj)
     else:
-        text = iface_("Select a mesh, then press Decompose.")
+        text = targets.to_be_active(context) or iface_("Select a mesh, then press Decompose.")
     room.wrapped(layout.column(align=True), text, "INFO")
 
 

@@ -98,18 +98,24 @@ def draw() -> None:
     context = bpy.context
     if not context.space_data.overlay.show_overlays:
         return
-    layer = context.view_layer
     seen = set()
-    for collection in bpy.data.collections:
-        source = graph_finding.source_of(collection)
-        if source is None or source.type != "MESH" or not store.has_result(source.data):
-            continue
-        items = [item for item in collection.objects if item.name in layer.objects and item.visible_get()]
-        if items:
-            seen.add(source.session_uid)
-            _draw_graph(context, source, items)
+    for source, items in seen_graphs(context.view_layer).items():
+        seen.add(source.session_uid)
+        _draw_graph(context, source, items)
     for gone in set(_lines) - seen:
         del _lines[gone]
+
+
+def seen_graphs(layer: bpy.types.ViewLayer) -> dict[bpy.types.Object, list[bpy.types.Object]]:
+    """The objects of each graph that are seen, by model: those of its collection, and those moved to another one."""
+    found = {source: list(collection.objects) for collection in bpy.data.collections
+             if (source := graph_finding.source_of(collection)) is not None}
+    for item in layer.objects:
+        if ROLE in item and item[ROLE] in graph_finding.ROLES and item.parent is not None:  # get() takes far longer
+            found.setdefault(item.parent, []).append(item)
+    found = {source: [item for item in dict.fromkeys(items) if item.name in layer.objects and item.visible_get()]
+             for source, items in found.items() if source.type == "MESH" and store.has_result(source.data)}
+    return {source: items for source, items in found.items() if items}
 
 
 def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: list[bpy.types.Object]) -> None:

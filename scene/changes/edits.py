@@ -104,16 +104,36 @@ def _neighbor(parts: Parts, cuts: np.ndarray, number: int, locked: Sequence[int]
 def small_merged(mesh: bpy.types.Mesh, stored: Stored, small: Iterable[int]) -> tuple[Stored, int]:
     """The result with small parts merged into their neighbors, each beyond its least salient cut, and how many were.
 
-    Parts that touch nothing, that are locked, or that touch only locked parts stay. small : numbers, smallest first.
+    Parts that touch nothing, that are locked, or that touch only locked parts stay. One across the plane of symmetry
+    goes to another such part if it touches one. small : numbers, smallest first.
     """
-    numbers, locked, changed = stored.shown.copy(), pins.locked_others(mesh, 0), set[int]()
+    numbers, locked, changed, twin = stored.shown.copy(), pins.locked_others(mesh, 0), set[int](), _twins(stored)
     for number in [number for number in small if number not in locked]:
         parts = Parts(stored.decomposition, numbers)  # whose labels are the numbers
-        into = _neighbor(parts, parts.cuts, number, locked)
-        if into:
-            numbers = np.where(numbers == number, into, numbers)
-            changed = changed - {number} | {into}
+        aside = [other for other, image in twin.items() if other != image] if twin.get(number) == number else []
+        into = (_neighbor(parts, parts.cuts, number, [*locked, *aside])
+                or _neighbor(parts, parts.cuts, number, locked))
+        if not into:
+            continue
+        for one, other in _with_image(parts.cuts, twin, number, into, locked).items():
+            numbers = np.where(numbers == one, other, numbers)
+            changed = changed - {one} | {other}
+        if twin.get(number) == into:  # two images are one part now
+            twin[into] = into
     return pins.pinned(mesh, stored, numbers, changed), len(np.unique(stored.shown)) - len(np.unique(numbers))
+
+
+def _with_image(cuts: np.ndarray, twin: dict[int, int], number: int, into: int,
+                locked: Sequence[int]) -> dict[int, int]:
+    """Which part goes to which neighbor, and its mirror image to the image of that, if this can be.
+
+    cuts : (e, 2) int64, numbers of parts that touch. twin : see ``_twins``. locked : numbers of parts that stay.
+    """
+    image, beyond = twin.get(number), twin.get(into)
+    if image is None or beyond is None or image in (number, into, *locked) or beyond in locked:
+        return {number: into}
+    touch = (np.sort(cuts, axis=1) == sorted((image, beyond))).all(axis=1).any()
+    return {number: into, image: beyond} if touch else {number: into}
 
 
 def halved(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:

@@ -151,12 +151,15 @@ def use_palette(obj: bpy.types.Object | None, palette: str, context: bpy.types.C
 
 @reaction
 def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A part was given another color: all that is colored by it takes it, and it stays."""
+    """A part was given another color: all that is colored by it takes it, and it stays. Backspace takes it back."""
     mesh = part.id_data
 
     def keep(stored: Stored) -> None:
         numbered = stored.shown_parts()
         own = outputs.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
+        if np.array_equal(part.color, np.array(part_names.NO_COLOR, np.float32)):
+            with property_updates.quiet():
+                part.color = own
         # Blender's popup, when it is cancelled, sets the color back.
         chosen = np.abs(own - part.color).max() > 0.5 / 255
         part_names.keep_color(mesh, part.number, part.color[:] if chosen else None)

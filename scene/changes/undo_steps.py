@@ -23,16 +23,22 @@ def soon(context: bpy.types.Context) -> None:
     """A property was changed by the user: make a step of undo soon, if Blender does not."""
     global _changed
     keep_all(context)
-    if bpy.app.background or context.mode != "SCULPT":
+    if bpy.app.background or _mode(context) != "SCULPT":
         return
     _changed = time.monotonic()
     if not bpy.app.timers.is_registered(_step):
         bpy.app.timers.register(_step, first_interval=REST)
 
 
+def _mode(context: bpy.types.Context) -> str:
+    """The mode of the active object; ``context.mode`` does not tell where there is no window, as in a timer."""
+    active = context.view_layer.objects.active
+    return "OBJECT" if active is None else active.mode
+
+
 def keep_all(context: bpy.types.Context) -> None:
     """A property was changed: have Blender's next step keep more than the edited mesh, as it does after a new block."""
-    if not bpy.app.background and context.mode == "EDIT_MESH":
+    if not bpy.app.background and _mode(context) == "EDIT":
         bpy.data.meshes.remove(bpy.data.meshes.new("Reeb Parts"), do_unlink=False)
 
 
@@ -41,9 +47,7 @@ def _step() -> float | None:
     if rested < REST:
         return REST - rested
     manager = bpy.context.window_manager
-    active = bpy.context.view_layer.objects.active
-    # To leave the mode is a step by itself.
-    if len(manager.windows) and active is not None and active.mode == "SCULPT":
+    if len(manager.windows) and _mode(bpy.context) == "SCULPT":  # to leave the mode is a step by itself
         with bpy.context.temp_override(window=manager.windows[0]):
             bpy.ops.ed.undo_push(message="Reeb Parts")
     return None

@@ -15,7 +15,7 @@ from ..ours.made_objects import ROLE
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
-NODE, ARCS = "node", "arcs"  # roles: of the empties, and of the curve
+ROLES = NODE, ARCS = "node", "arcs"  # of the empties, and of the curve
 _TYPES = {NODE: "EMPTY", ARCS: "CURVE"}
 _ON_NODE = {"node": int, "part": int, "kind": str}  # custom properties, which the user may have deleted or changed
 
@@ -84,7 +84,7 @@ def elsewhere(obj: bpy.types.Object) -> list[bpy.types.Object]:
     """The objects of an object's graph that the user has moved to another collection, or whose own was deleted."""
     collection = find(obj)
     there = set(collection.objects) if collection else set()
-    return [item for item in obj.children if item.get(ROLE) in (NODE, ARCS) and item not in there
+    return [item for item in obj.children if item.get(ROLE) in ROLES and item not in there
             and not transaction.is_discarded(item)]
 
 

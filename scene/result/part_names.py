@@ -16,6 +16,9 @@ from .. import transaction
 #: The largest number that a part has: colors are looked up in a table of all numbers.
 MAX_NUMBER = 1_000_000
 
+#: The color that Blender's Backspace sets over the color of a part, sRGB: a black that can hardly be chosen.
+NO_COLOR = (1e-5, 1e-5, 1e-5)
+
 _LONGEST, _ROOM = 63, 8  # bytes of a name in Blender, and of the longest number behind it
 
 

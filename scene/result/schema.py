@@ -24,7 +24,7 @@ from ..changes import reactions, undo_steps
 from ..changes.settled import Settled
 from ..settings import JOINTS, ReebPartsSettings, ReebPartsUse
 from ..showing import explode
-from . import part_list
+from . import part_list, part_names
 
 
 class ReebPart(bpy.types.PropertyGroup):
@@ -37,7 +37,7 @@ class ReebPart(bpy.types.PropertyGroup):
     number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
     color: FloatVectorProperty(
         name="Color", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=reactions.recolor,
-        options=set(),
+        options=set(), default=part_names.NO_COLOR,
         description="Color of the part; one that you choose stays with it",
     )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")

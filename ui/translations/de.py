@@ -799,6 +799,8 @@ TEXTS = {
     "Select a mesh first": "Zuerst ein Mesh auswählen",
     "There is no active object. Select a mesh and try again.":
         "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
+    "{name} is the active object, and not a mesh. Hold Shift and click the mesh.":
+        "{name} ist das aktive Objekt und kein Mesh. Bitte bei gedrückter Umschalttaste auf das Mesh klicken.",
     "{name} is not a mesh but of the type {kind}. Select a mesh and try again.":
         "{name} ist kein Mesh, sondern vom Typ {kind}. Bitte ein Mesh auswählen und erneut versuchen.",
     "{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again.":

@@ -729,6 +729,8 @@ TEXTS = {
     # 无法分解的情况
     "Select a mesh first": "请先选择一个网格",
     "There is no active object. Select a mesh and try again.": "没有活动物体。请选择一个网格并重试。",
+    "{name} is the active object, and not a mesh. Hold Shift and click the mesh.":
+        "活动物体 {name} 不是网格。请按住 Shift 点击网格。",
     "{name} is not a mesh but of the type {kind}. Select a mesh and try again.":
         "{name} 不是网格，而是 {kind} 类型。请选择一个网格并重试。",
     "{name} is not a mesh but of the type {kind}. Convert it (Object > Convert > Mesh) and try again.":

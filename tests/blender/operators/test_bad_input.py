@@ -29,6 +29,16 @@ def test_not_a_mesh(scene):
     refused("not a mesh")
 
 
+def test_a_mesh_is_selected_and_something_else_is_active(obj, scene_module):
+    """The panel said to select a mesh."""
+    targets = scene_module("targets")
+    assert targets.to_be_active(bpy.context) == ""
+    bpy.ops.object.camera_add()
+    assert targets.to_be_active(bpy.context) == ""
+    obj.select_set(True)
+    assert targets.to_be_active(bpy.context).startswith("Camera is the active object, and not a mesh.")
+
+
 @pytest.mark.parametrize("add", ["object.text_add", "object.metaball_add", "curve.primitive_bezier_circle_add",
                                  "surface.primitive_nurbs_surface_sphere_add"])
 def test_what_can_be_made_a_mesh_of(add):

@@ -173,6 +173,18 @@ def test_names_stay_beside_the_users_own(obj, result):
     assert result.parts[1].name == "Arm"
 
 
+def test_backspace_over_a_color_gives_the_palettes_back(obj, result):
+    """It gave black, which stayed with the part."""
+    bpy.ops.reeb_parts.materials()
+    before = snapshot()
+    part = result.parts[1]
+    for _ in range(2):  # of a color that was chosen, and of the palette's own
+        part.color = part.bl_rna.properties["color"].default_array
+        assert snapshot() == before
+        part.color = (1.0, 0.0, 0.5)
+        assert snapshot() != before
+
+
 def test_a_colour_that_is_chosen_stays_with_the_part(obj, result):
     result.detail = 0.6
     chosen = result.parts[1]

@@ -70,6 +70,24 @@ def test_arcs_have_the_colours_of_the_parts_that_they_pass(obj, arcs):
     assert {tuple(color[:3]) for color in colors} == {tuple(part.color) for part in obj.data.reeb_parts.parts}
 
 
+@pytest.mark.parametrize("deleted", [False, True])
+def test_a_graph_is_drawn_wherever_its_objects_are(markers, obj, arcs, deleted):
+    """What was moved to another collection was not drawn in colors, but by Blender."""
+    collection, other = bpy.data.collections["Reeb Graph Tree"], bpy.data.collections.new("Mine")
+    bpy.context.scene.collection.children.link(other)
+    graph = set(collection.objects)
+    moved = list(graph) if deleted else list(graph)[::2]
+    for item in moved:
+        other.objects.link(item)
+        collection.objects.unlink(item)
+    if deleted:
+        bpy.data.collections.remove(collection)
+    (found,) = markers.seen_graphs(bpy.context.view_layer).items()
+    assert (found[0], set(found[1]), len(found[1])) == (obj, graph, len(graph))
+    moved[0].hide_set(True)
+    assert set(markers.seen_graphs(bpy.context.view_layer)[obj]) == graph - {moved[0]}
+
+
 def test_arcs_are_colored_anew_once_the_mesh_is_edited(package, markers, obj, arcs):
     """Those of before were drawn on over the model as it was."""
     before = markers.state(obj, list(obj.children))

@@ -33,6 +33,14 @@ def paired(mesh):
     return len(set(zip(numbers.tolist(), other.tolist(), strict=True))) == len(set(numbers.tolist()))
 
 
+def of_both_sides(mesh):
+    """Each part has as many faces as the one called like it with the other side has there, or lies across the plane."""
+    left = np.array([polygon.center[0] for polygon in mesh.polygons]) > 0
+    count = {entry.own_name: np.bincount(left[face_numbers(mesh) == entry.number], minlength=2).tolist()
+             for entry in mesh.reeb_parts.parts}
+    return all(count.get(bpy.utils.flip_name(name)) == faces[::-1] for name, faces in count.items())
+
+
 def part(mesh, ending):
     return next(entry for entry in mesh.reeb_parts.parts if entry.name.endswith(ending))
 
@@ -221,6 +229,21 @@ def test_a_part_across_the_plane_takes_neighbors_on_both_sides():
     choose(mesh, part_named(mesh, "head"))
     assert bpy.ops.reeb_parts.merge_neighbour() == {"FINISHED"}
     assert np.array_equal(face_numbers(mesh) == number["head"], wanted)
+
+
+@pytest.mark.parametrize("locked", [False, True])
+def test_small_parts_are_merged_on_both_sides(locked):
+    """What lay across the plane went to one side, and images to neighbors that were no images."""
+    bpy.ops.wm.obj_import(filepath=str(SPOT))
+    mesh = bpy.context.object.data
+    bpy.ops.reeb_parts.decompose(detail=1.0)
+    assert of_both_sides(mesh)
+    tiny, before = min(mesh.reeb_parts.parts, key=lambda entry: entry.share), face_numbers(mesh)
+    number, tiny.locked, count = tiny.number, locked, len(mesh.reeb_parts.parts)
+    assert bpy.ops.reeb_parts.merge_small() == {"FINISHED"}
+    assert len(mesh.reeb_parts.parts) < 0.5 * count
+    assert of_both_sides(mesh) != locked
+    assert np.array_equal(face_numbers(mesh) == number, before == number) == locked
 
 
 def test_two_images_marked_are_split_once(mesh):

@@ -94,6 +94,21 @@ def test_from_every_mode(owned, name, mode):
 
 
 @pytest.mark.parametrize("name", OPERATORS)
+def test_taken_back_from_a_mesh_that_was_edited(owned, name):
+    """They stayed until it was decomposed again."""
+    bpy.ops.reeb_parts.decompose()
+    owned.data.vertices[0].co.x += 0.5
+    before = snapshot()
+    owned.data.vertices[0].co.x -= 0.5
+    run(name)
+    owned.data.vertices[0].co.x += 0.5
+    with pytest.raises(RuntimeError, match="was edited"):
+        run(name)
+    assert run(name, remove=True) == {"FINISHED"}
+    assert snapshot() == before
+
+
+@pytest.mark.parametrize("name", OPERATORS)
 def test_undo(owned, name):
     bpy.ops.reeb_parts.decompose()
     check_undo(lambda: run(name))
