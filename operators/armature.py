@@ -12,7 +12,7 @@ from .checks import report_kept
 
 
 class REEB_PARTS_OT_armature(SelectedPartsOperator, bpy.types.Operator):
-    """Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly"""
+    """Make an armature that moves the mesh smoothly, with a bone along the center line of each part that can bend"""
 
     bl_idname = "reeb_parts.armature"
     bl_label = "Make Armature from Parts"

@@ -6,6 +6,7 @@ from types import ModuleType
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 
 from ..core.sentence import Count
 from ..scene import modes, outputs, property_updates, store, targets
@@ -28,6 +29,11 @@ class OutputOperator(SelectedPartsOperator):
         name="Take Back", options={"SKIP_SAVE"},
         description="Take them away again; what was there before is back",
     )
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """The tooltip of a button that is pressed already; else what the class says."""
+        return tip_(properties.bl_rna.properties["remove"].description) if properties.remove else ""
 
     def look(self, obj: bpy.types.Object) -> Stored:
         # What is taken away need not be up to date.

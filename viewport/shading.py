@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import handlers, modes, redraw, targets, transaction
+from ..scene import handlers, modes, redraw, store, targets, transaction
 from ..scene.pieces import origins
 
 
@@ -62,9 +62,11 @@ def show_pieces(context: bpy.types.Context) -> None:
 
 
 def restore_colors(context: bpy.types.Context) -> None:
-    """Show the view as before ``show_colors``; what the user has set since stays."""
+    """Show the view as before ``show_colors``, unless models still have parts; what the user has set since stays."""
     space = context.space_data
     if space is None or space.type != "VIEW_3D" or space.as_pointer() not in _before:
+        return
+    if any(store.has_parts(obj) for obj in context.view_layer.objects):
         return
     before = _before.pop(space.as_pointer())
     transaction.on_failure(_before.__setitem__, space.as_pointer(), before)

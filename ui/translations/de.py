@@ -631,8 +631,9 @@ TEXTS = {
     "3MF": "3MF",
     "glTF Binary": "glTF Binär",
     "With materials and textures": "Mit Materialien und Texturen",
-    "Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly":
-        "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, das das Mesh weich bewegt",
+    "Make an armature that moves the mesh smoothly, with a bone along the center line of each part that can bend":
+        "Ein Skelett erstellen, das das Mesh weich bewegt: ein Knochen für jedes Teil, das sich biegen kann, entlang "
+        "seiner Mittellinie",
     "Weights": "Gewichtungen",
     "How much each bone moves each vertex; at most four bones move one":
         "Wie sehr jeder Knochen jeden Punkt bewegt; höchstens vier Knochen bewegen einen",

@@ -594,8 +594,8 @@ TEXTS = {
     "3MF": "3MF",
     "glTF Binary": "glTF 二进制",
     "With materials and textures": "带材质和纹理",
-    "Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly":
-        "创建骨架，每个部件一根骨骼，沿部件的中心线，使网格平滑变形",
+    "Make an armature that moves the mesh smoothly, with a bone along the center line of each part that can bend":
+        "创建骨架，每个可弯曲的部件一根骨骼，沿部件的中心线，使网格平滑变形",
     "Weights": "权重",
     "How much each bone moves each vertex; at most four bones move one":
         "每根骨骼对每个顶点的影响程度；一个顶点最多受四根骨骼影响",

@@ -44,6 +44,22 @@ def test_the_button_shows_the_colors(package, space, obj):
         bpy.ops.reeb_parts.show_colors()
 
 
+def test_clear_leaves_the_view_as_long_as_a_model_has_parts(package, space, obj, make, tree):
+    """The colors of all others were gone, and lines led from each node of their graphs to them."""
+    other, area = make(tree, "Other"), next(area for area in bpy.context.screen.areas if area.type == "VIEW_3D")
+    space.shading.type, space.shading.color_type, space.overlay.show_relationship_lines = "SOLID", "MATERIAL", True
+    with bpy.context.temp_override(area=area):
+        for each in (obj, other):
+            activate(each)
+            bpy.ops.reeb_parts.decompose()
+        sys.modules[f"{package}.viewport.shading"].show_colors(bpy.context)  # as the panel's button does
+        bpy.ops.reeb_parts.clear()
+        assert (space.shading.color_type, space.overlay.show_relationship_lines) == ("VERTEX", False)
+        activate(obj)
+        bpy.ops.reeb_parts.clear()
+    assert (space.shading.color_type, space.overlay.show_relationship_lines) == ("MATERIAL", True)
+
+
 def test_the_button_shows_the_colors_of_a_linked_model(package, space, obj, tmp_path):
     """It was grey: the model cannot be written."""
     bpy.ops.reeb_parts.decompose()

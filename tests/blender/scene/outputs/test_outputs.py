@@ -57,6 +57,16 @@ def test_taken_back_everything_is_as_before(owned, name):
 
 
 @pytest.mark.parametrize("name", OPERATORS)
+def test_the_tooltip_of_a_pressed_button_says_that_a_click_takes_them_away(obj, name):
+    operator, properties = (getattr(bpy.types, f"REEB_PARTS_OT_{name}"),
+                            bpy.context.window_manager.operator_properties_last(f"reeb_parts.{name}"))
+    properties.remove = False
+    assert not operator.description(bpy.context, properties)  # what the class says
+    properties.remove = True
+    assert operator.description(bpy.context, properties).startswith("Take them away again")
+
+
+@pytest.mark.parametrize("name", OPERATORS)
 def test_twice_is_once(owned, name):
     bpy.ops.reeb_parts.decompose()
     run(name)
