@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams, face sets and materials of the parts, each with one click, and taken back with another."""
 
-from types import ModuleType
-
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -10,7 +8,6 @@ from bpy.app.translations import pgettext_tip as tip_
 
 from ..core.sentence import Count
 from ..scene import modes, outputs, property_updates, store, targets
-from ..scene.outputs import face_sets, materials, seams
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 from ..viewport import shading
@@ -19,11 +16,11 @@ from ..viewport import shading
 class OutputOperator(SelectedPartsOperator):
     """For operators that write one thing more to the mesh, which then follows the parts until it is taken back.
 
-    A class that inherits gives ``output``: the module of scene.outputs, and the sentences said of it when it was
-    written and when it was taken back.
+    A class that inherits gives ``output``: its name, see outputs.write.OUTPUTS, and the sentences said of it when it
+    was written and when it was taken back.
     """
 
-    output: tuple[ModuleType, str, str]
+    output: tuple[str, str, str]
 
     remove: bpy.props.BoolProperty(
         name="Take Back", options={"SKIP_SAVE"},
@@ -40,10 +37,10 @@ class OutputOperator(SelectedPartsOperator):
         return store.last(obj.data) if self.remove else super().look(obj)
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        output, done, undone = self.output
+        name, done, undone = self.output
         obj = targets.users(obj.data)[0]
         with property_updates.quiet():
-            (output.remove if self.remove else output.add)(obj)
+            outputs.switch(obj, name, on=not self.remove)
             if not self.remove:
                 numbered = stored.shown_parts()
                 outputs.update_outputs(obj, numbered, numbered.candidate_numbers)
@@ -56,7 +53,7 @@ class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.seams"
     bl_label = "Mark Seams between Parts"
-    output = (seams, n_("Seams around {n} {n:part|parts}"), n_("The seams are yours alone again"))
+    output = ("seams", n_("Seams around {n} {n:part|parts}"), n_("The seams are yours alone again"))
 
 
 class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
@@ -64,7 +61,7 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
-    output = (face_sets, n_("{n} {n:part is a face set|parts are face sets}"),
+    output = ("face_sets", n_("{n} {n:part is a face set|parts are face sets}"),
               n_("The face sets are yours alone again"))
 
 
@@ -73,7 +70,7 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
-    output = (materials, n_("{n} {n:part has a material|parts have materials}"),
+    output = ("materials", n_("{n} {n:part has a material|parts have materials}"),
               n_("The materials are yours alone again"))
 
     def run(self, context: bpy.types.Context) -> None:

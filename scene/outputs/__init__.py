@@ -17,6 +17,7 @@ Made once, when it is asked for:
 - ``uv_map``: a UV map with an island for each part
 """
 
-from .write import keep_places, palette_colors, remove_outputs, update_colors, update_outputs, write_outputs
+from .write import keep_places, palette_colors, remove_outputs, switch, update_colors, update_outputs, write_outputs
 
-__all__ = ["keep_places", "palette_colors", "remove_outputs", "update_colors", "update_outputs", "write_outputs"]
+__all__ = ["keep_places", "palette_colors", "remove_outputs", "switch", "update_colors", "update_outputs",
+           "write_outputs"]

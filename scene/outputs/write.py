@@ -30,6 +30,8 @@ OUTPUTS = {
 def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.ndarray, outputs: Any) -> None:
     """Write the chosen outputs, and take back what an earlier run wrote and this one does not want.
 
+    What a button has switched on stays until it is switched off there.
+
     Parameters
     ----------
     obj : bpy.types.Object
@@ -42,11 +44,19 @@ def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.
     transaction.keep_mesh(obj.data)
     face_sets.keep_drawn(obj.data)
     vertex_groups.remove(obj)
+    stay = obj.data.reeb_parts.by_button.split()
     for name, output in OUTPUTS.items():
-        (output.add if getattr(outputs, name) else output.remove)(obj)
+        (output.add if name in stay or getattr(outputs, name) else output.remove)(obj)
     obj.data.reeb_parts.palette = outputs.palette
     field.write(obj.data, distances)
     update_outputs(obj, numbered)
+
+
+def switch(obj: bpy.types.Object, name: str, on: bool) -> None:
+    """Add an output to an object, or remove it, because its button was pressed; ``update_outputs`` writes it."""
+    (OUTPUTS[name].add if on else OUTPUTS[name].remove)(obj)
+    others = [other for other in obj.data.reeb_parts.by_button.split() if other != name]
+    obj.data.reeb_parts.by_button = " ".join([*others, name] if on else others)
 
 
 def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | None = None) -> None:

@@ -123,6 +123,7 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     has_face_sets: BoolProperty()
     has_materials: BoolProperty()
     has_seams: BoolProperty()
+    by_button: StringProperty()  # names of outputs that their buttons have switched on, with spaces between
     former_color: StringProperty()
     former_render_color: StringProperty()
     had_face_sets: BoolProperty()
