@@ -19,7 +19,7 @@ import numpy as np
 from ..arrays.indexing import inverse, place_among, stable_order, sums_by
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways, distinct_pairs
-from ..arrays.ties import ranks
+from ..arrays.ties import TIE, ranks
 from .births import area_votes, make_room, number_births
 from .decomposition import Decomposition
 from .levels import detail_between, strong_levels
@@ -106,8 +106,9 @@ def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) ->
     """Number new parts by their overlap with numbered old parts.
 
     Pairs of a new part and an old number are taken by falling overlap, each part and each number once; of overlaps that
-    are equal but for rounding, the pair of the smaller part and then that of the smaller number comes first. Parts that
-    are left over get the smallest numbers that ``previous_number`` does not contain.
+    are equal but for rounding, the pair of the smaller part and then that of the smaller number comes first. A part
+    that has more than twice as much of another number takes none of which it has so little. Parts that are left over
+    get the smallest numbers that ``previous_number`` does not contain.
 
     Parameters
     ----------
@@ -128,6 +129,10 @@ def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) ->
     known = previous_number > 0
     pairs, pair = distinct_pairs(part[known], previous_number[known])
     overlap = sums_by(pair, weight[known], len(pairs))
+    largest = np.zeros(count)
+    np.maximum.at(largest, pairs[:, 0], overlap)
+    fits = overlap > (0.5 - TIE) * largest[pairs[:, 0]]
+    pairs, overlap = pairs[fits], overlap[fits]
     taken = set()
     for new, number in pairs[stable_order(ranks(-np.log(overlap), 1.0))].tolist():
         if not numbers[new] and number not in taken:

@@ -35,7 +35,7 @@ EXPORTERS = {
 #: Kinds of files that parts are written as, as items of a property: those of EXPORTERS, and ours. Each has a check in
 #: ``file_checks``.
 KINDS = (
-    ("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colors"),
+    ("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with the colors of the mesh"),
     ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures"),
     ("3mf", "3MF", "For slicers: all parts of an object as one assembly, with names and colors"),
 )

@@ -625,7 +625,7 @@ TEXTS = {
     "OBJ": "OBJ",
     "Wavefront, with materials": "Wavefront, mit Materialien",
     "PLY": "PLY",
-    "Stanford, with colors": "Stanford, mit Farben",
+    "Stanford, with the colors of the mesh": "Stanford, mit den Farben des Meshes",
     "STL": "STL",
     "For 3D printing": "Für den 3D-Druck",
     "3MF": "3MF",

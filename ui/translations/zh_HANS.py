@@ -588,7 +588,7 @@ TEXTS = {
     "OBJ": "OBJ",
     "Wavefront, with materials": "Wavefront，带材质",
     "PLY": "PLY",
-    "Stanford, with colors": "Stanford，带颜色",
+    "Stanford, with the colors of the mesh": "Stanford，带网格自身的颜色",
     "STL": "STL",
     "For 3D printing": "用于 3D 打印",
     "3MF": "3MF",

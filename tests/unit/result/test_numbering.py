@@ -30,6 +30,13 @@ def test_follow_weighs_elements():
     assert follow(part, former, np.array([1.0, 3.0, 2.0])).tolist() == [2, 3]
 
 
+@pytest.mark.parametrize(("weight", "wanted"), [(3.0, [5, 1]), (4.0, [5, 2]), (5.0, [5, 2])])
+def test_follow_gives_a_part_no_number_of_which_it_has_little_beside_another(weight, wanted):
+    """The inner side of a model with Solidify, which is mostly body, was called as a leg."""
+    part, former = np.array([0, 1, 1]), np.array([5, 5, 2])
+    assert follow(part, former, np.array([9.0, 8.0, weight])).tolist() == wanted
+
+
 @ROUNDING
 def test_follow_takes_overlaps_that_are_equal_but_for_rounding_in_their_order(rounding):
     assert follow(np.array([0, 1]), np.array([3, 3]), np.array([1.0, 1.0 + rounding])).tolist() == [3, 1]
