@@ -8,10 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.arrays.components import components
-from ..core.arrays.int64 import arange
-from ..core.graph.reeb import ReebGraph
 from ..core.result.decomposition import Decomposition
-from ..core.uses.graph_folding import unfolded
+from ..core.uses.graph_folding import arc_segments, unfolded, without_scraps
 from ..scene import bridge
 from ..scene.graph import arc_curves
 from ..scene.store import Stored
@@ -33,12 +31,15 @@ class GraphLines:
         The candidate part that the point lies in.
     segments : (s, 2) int64
         Points that follow each other.
+    n_nodes : int
+        How many of the points are nodes, the first ones.
     """
 
     position: np.ndarray
     value: np.ndarray
     candidate: np.ndarray
     segments: np.ndarray
+    n_nodes: int
 
     @classmethod
     def of(cls, decomposition: Decomposition, stretch: np.ndarray, arcs: np.ndarray | None = None) -> GraphLines:
@@ -51,7 +52,8 @@ class GraphLines:
         position = arc_curves.places(graph, bridge.unstretch(stretch).T)
         value = np.concatenate([graph.node_value, graph.point_value])
         candidate = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
-        return cls(position, value, candidate, _segments(graph, np.ones(graph.n_arcs, bool) if arcs is None else arcs))
+        found = arc_segments(graph, np.ones(graph.n_arcs, bool) if arcs is None else arcs)
+        return cls(position, value, candidate, found, graph.n_nodes)
 
     @classmethod
     def shown(cls, stored: Stored, stretch: np.ndarray) -> GraphLines:
@@ -62,21 +64,9 @@ class GraphLines:
 
     def without(self, numbers: np.ndarray, hidden: list[int]) -> GraphLines:
         """These lines but for those in hidden parts, or to them. numbers : (c,), the part of each candidate."""
-        seen = ~np.isin(numbers[self.candidate], hidden)
+        part = numbers[self.candidate]
+        seen = without_scraps(self.segments, part, ~np.isin(part, hidden), self.n_nodes)
         return replace(self, segments=self.segments[seen[self.segments].all(axis=1)])
-
-
-def _segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:
-    """Nodes come first, then the center points of the arcs in order. arcs : (q,) bool."""
-    points = graph.n_nodes + arange(len(graph.point_value))
-    following = np.flatnonzero((graph.point_arc[1:] == graph.point_arc[:-1]) & arcs[graph.point_arc[1:]])
-    inner = np.stack([points[following], points[following + 1]], axis=1)
-    full = np.flatnonzero((np.diff(graph.arc_points) > 0) & arcs)
-    first, last = points[graph.arc_points[full]], points[graph.arc_points[full + 1] - 1]
-    bare = graph.arcs[(np.diff(graph.arc_points) == 0) & arcs]
-    return np.concatenate([
-        inner, bare, np.stack([graph.arcs[full, 0], first], axis=1), np.stack([last, graph.arcs[full, 1]], axis=1),
-    ]).astype(np.int64)
 
 
 def nearest(points: np.ndarray, segments: np.ndarray, target: np.ndarray) -> tuple[int, float, float]:

@@ -8,7 +8,9 @@ from collections import Counter
 
 import numpy as np
 
+from ..arrays.components import components
 from ..arrays.indexing import sums_by
+from ..arrays.int64 import arange
 from ..graph.critical import SADDLE
 from ..graph.reeb import ReebGraph
 
@@ -56,6 +58,50 @@ def unfolded(graph: ReebGraph, node_part: np.ndarray, point_part: np.ndarray) ->
     folding = _Folding(graph, node_part.tolist(), inside.tolist())
     folding.fold_all()
     return _without_passages(graph, node_part, folding.nodes, folding.around), folding.arcs
+
+
+def arc_segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:
+    """Points of some arcs that follow each other, (s, 2) int64; nodes come first, then the center points of the arcs.
+
+    arcs : (q,) bool.
+    """
+    points = graph.n_nodes + arange(len(graph.point_value))
+    following = np.flatnonzero((graph.point_arc[1:] == graph.point_arc[:-1]) & arcs[graph.point_arc[1:]])
+    inner = np.stack([points[following], points[following + 1]], axis=1)
+    full = np.flatnonzero((np.diff(graph.arc_points) > 0) & arcs)
+    first, last = points[graph.arc_points[full]], points[graph.arc_points[full + 1] - 1]
+    bare = graph.arcs[(np.diff(graph.arc_points) == 0) & arcs]
+    return np.concatenate([
+        inner, bare, np.stack([graph.arcs[full, 0], first], axis=1), np.stack([last, graph.arcs[full, 1]], axis=1),
+    ]).astype(np.int64)
+
+
+def without_scraps(segments: np.ndarray, part: np.ndarray, seen: np.ndarray, n_nodes: int) -> np.ndarray:
+    """Leave out what is seen of an arc amid hidden parts, and reaches no node, if its part has lines that do.
+
+    Parameters
+    ----------
+    segments : (s, 2) int64
+        See ``arc_segments``.
+    part : (m,) int64
+        The part that each point lies in.
+    seen : (m,) bool
+        Points of parts that are not hidden.
+    n_nodes : int
+        How many of the points are nodes, the first ones.
+
+    Returns
+    -------
+    seen : (m,) bool
+        All nodes as they were.
+    """
+    ends = segments[seen[segments].all(axis=1)]
+    _, line = components(len(part), *ends.T)
+    reaches = np.isin(line, line[ends[ends < n_nodes]])
+    others = np.isin(part, part[seen & reaches])
+    stays = reaches | np.isin(line, line[seen & ~others])
+    stays[:n_nodes] = True
+    return seen & stays
 
 
 class _Folding:

@@ -19,7 +19,7 @@ from ...core.graph.critical import KINDS
 from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
-from ...core.uses.graph_folding import unfolded
+from ...core.uses.graph_folding import arc_segments, unfolded, without_scraps
 from .. import bridge, store, transaction
 from ..ours import made_objects
 from ..ours.made_objects import ROLE
@@ -227,7 +227,8 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     graph = parts.decomposition.graph
     shown, arcs_shown = unfolded(graph, parts.node_part, parts.point_part)
     hidden = hidden_parts(obj.data, numbered.numbers[parts.labels])
-    seen = ~np.isin(numbered.numbers[np.concatenate([parts.node_part, parts.point_part])], hidden)
+    part = numbered.numbers[np.concatenate([parts.node_part, parts.point_part])]
+    seen = without_scraps(arc_segments(graph, arcs_shown), part, ~np.isin(part, hidden), graph.n_nodes)
     shown &= seen[: graph.n_nodes]
     colors = part_names.number_colors(obj.data)
     for node in nodes:

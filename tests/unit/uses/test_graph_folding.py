@@ -9,7 +9,7 @@ import shapes
 from core import decompose
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE
 from core.graph.reeb import ReebGraph
-from core.uses.graph_folding import arc_lengths, unfolded
+from core.uses.graph_folding import arc_lengths, unfolded, without_scraps
 
 
 def graph_of(kinds, positions, arcs):
@@ -108,3 +108,19 @@ def test_a_part_of_passages_keeps_the_first():
     nodes, arcs = unfolded(row, np.array([0, 1, 2, 2, 3]), NO_POINTS)
     assert np.flatnonzero(nodes).tolist() == [0, 1, 2, 4]
     assert arcs.all()
+
+
+@pytest.mark.parametrize(("first", "scrap"), [(1, False), (3, True)])
+def test_a_stretch_without_nodes_is_seen_only_if_its_part_has_no_other_line(first, scrap):
+    """It floated beside a part that was isolated. An arc from node 0 by points 2 to 6 to node 1; part 2 is hidden."""
+    chain = np.array([0, 2, 3, 4, 5, 6, 1])
+    part = np.array([first, 2, first, 2, 1, 1, 2])
+    seen = without_scraps(np.stack([chain[:-1], chain[1:]], axis=1), part, part != 2, 2)
+    assert seen.tolist() == [True, False, True, False, scrap, scrap, False]
+
+
+@pytest.mark.parametrize("hidden", [[], [0], [0, 1, 2]])
+def test_nodes_and_what_hangs_on_them_are_seen(hidden):
+    part = np.array([0, 1, 2])
+    seen = without_scraps(np.array([(0, 1), (1, 2)]), part, ~np.isin(part, hidden), 3)
+    assert np.array_equal(seen, ~np.isin(part, hidden))
