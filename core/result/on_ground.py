@@ -64,11 +64,11 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
 
 def _labels(found: Decomposition, graph: FaceGraph, kept: np.ndarray) -> tuple[np.ndarray, int]:
     """Candidate of each face, (p,) int64, those of grounds after those found, and the number of grounds."""
-    label = full(graph.n_faces, -1)
+    label = full(graph.n_faces, found.n_candidates)
     label[kept] = found.candidates
-    ground = np.flatnonzero(label < 0)
-    names, number = renumbered(graph.pieces[1][ground])
-    label[ground] = found.n_candidates + number
+    ground = np.flatnonzero(label == found.n_candidates)
+    names, number = renumbered(graph.regions(label)[1][ground])
+    label[ground] += number
     return label, len(names)
 
 
