@@ -39,6 +39,14 @@ def answer_text(document: dict[str, Any]) -> str:
     return json.dumps(document, indent=2, allow_nan=False) + "\n"
 
 
+def may_be_answer(path: Path) -> bool:
+    """Whether a file may be an answer of an earlier run, by its name or by how it begins; raises OSError."""
+    if path.suffix.lower() == ".json":
+        return True
+    with path.open("rb") as file:
+        return file.read(1) == b"{"
+
+
 def add_parameters(group: argparse._ArgumentGroup) -> None:
     """Add an option for each parameter and one for presets.
 

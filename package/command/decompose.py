@@ -19,7 +19,7 @@ from pathlib import Path
 
 from ..core.file_names import readable, spelled
 from ..core.memory import keep_freed_memory
-from ..core.options import add_parameters, chosen_parameters, named_file, number
+from ..core.options import add_parameters, chosen_parameters, may_be_answer, named_file, number
 from ..core.progress import said_in_steps
 from ..core.result.decomposition import Decomposition
 from ..core.sentence import Sentence
@@ -76,10 +76,15 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _withdraw(options: argparse.Namespace) -> None:
-    """Remove the JSON of an earlier run, which would be taken for the answer of this one, unless it is the model."""
+    """Remove the JSON of an earlier run, which would be taken for the answer of this one.
+
+    It stays if it is the model, or something else than a JSON: another model, where an option was mistaken.
+    """
+    path, model = options.json, options.model
     with suppress(OSError):
-        if options.json and options.json.is_file() and not options.json.samefile(options.model):
-            options.json.unlink()
+        is_model = path and model.exists() and path.samefile(model)
+        if path and not is_model and path.is_file() and may_be_answer(path):
+            path.unlink()
 
 
 def _run(options: argparse.Namespace) -> str:

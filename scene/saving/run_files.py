@@ -21,6 +21,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.atomic_files import HIDDEN, hidden_place, put_in_place, sync
 from ...core.file_names import kind_of
+from ...core.options import may_be_answer
 from ..errors import SceneError
 
 
@@ -173,11 +174,12 @@ class RunFiles:
             raise _unwritten(self._claimed.get(target, target), error) from error
 
     def withdraw(self) -> None:
-        """Remove the files of ``withdraw_on_failure``, unless the run reads them."""
+        """Remove the files of ``withdraw_on_failure``, unless the run reads them or they are something else."""
         for target in self._outdated:
             if not self._read & _identity(target):
                 with suppress(OSError):
-                    target.unlink(missing_ok=True)
+                    if may_be_answer(target):
+                        target.unlink()
 
     def clean(self) -> None:
         """Remove what is left: files that were not put in place, and folders made for them."""

@@ -68,6 +68,14 @@ def test_files_are_named_in_the_answer_and_nothing_else_is_there(everything):
     assert sorted(map(str, (path for path in out.rglob("*") if path.is_file()))) == sorted(named)
 
 
+def test_of_a_failed_run_only_an_old_answer_is_removed(reeb_parts_command, tmp_path):
+    """A model that was named after --json by mistake was removed."""
+    for name, text, stays in (("own.obj", "v 0 0 0", True), ("own.json", "cut sho", False), ("own", '{"a": 1}', False)):
+        (tmp_path / name).write_text(text)
+        assert reeb_parts_command("decompose", tmp_path / "missing.obj", "--json", tmp_path / name).returncode == 1
+        assert (tmp_path / name).exists() == stays
+
+
 def test_labels_are_those_of_core(everything, expected):
     assert (np.load(everything[0] / "tree.npy") == expected[1].labels).all()
 

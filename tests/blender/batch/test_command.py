@@ -309,6 +309,13 @@ def test_an_old_answer_does_not_outlast_a_failed_run(run, model, two, tmp_path, 
         assert any(arguments[0] in line or "Triangle" in line for line in said)
 
 
+def test_what_is_no_answer_outlasts_a_failed_run(run, model, tmp_path):
+    """A model that was named after --json by mistake was removed."""
+    before = process.content(tmp_path)
+    assert run(tmp_path / "missing.obj", "--json", model).status == 1
+    assert process.content(tmp_path) == before
+
+
 @pytest.mark.parametrize("option", ["--node-size", "--line-thickness", "--picture-turn"])
 @pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e9", "-1e9", "x"])
 def test_numbers_out_of_range_are_refused(run, model, option, value):

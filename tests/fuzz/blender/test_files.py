@@ -3,6 +3,7 @@
 
 import json
 import re
+from itertools import chain
 
 import bpy
 import numpy as np
@@ -116,7 +117,7 @@ def pytest_fail(text):
 def test_any_file_and_command_line(run, tmp_path, monkeypatch):  # noqa: F811
     errors = []
     monkeypatch.chdir(tmp_path)  # some of the nonsense names files
-    for seed in [*(case["seed"] for case in budget.stored("file")), *budget.rounds(25)]:
+    for seed in chain([case["seed"] for case in budget.stored("file")], budget.rounds(25)):
         try:
             check(run, tmp_path / f"s{seed}{len(errors)}", seed)
         except AssertionError as error:
