@@ -8,14 +8,14 @@ of the face on which it lies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.indexing import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
+from ..arrays.indexing import GOLDEN, begins_run, hashed_rows, inverse, stable_order
 from ..arrays.int64 import arange, cumsum
 from .polygons import MIN_FACES, PolygonMesh
-from .triangles import TriMesh, vertex_components
+from .triangles import vertex_components
 
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
@@ -58,11 +58,7 @@ class Copies:
 
     def without(self, given: PolygonMesh) -> PolygonMesh:
         """The mesh in which they were found, without copies: k polygons and m vertices."""
-        number = place_among(self.polygon, given.n_polygons)
-        kept = number[given.polygon] >= 0
-        triangles = TriMesh(given.triangles.vertices[self.vertex], self.home[given.triangles.faces[kept]])
-        return replace(given, triangles=triangles, polygon=frozen(number[given.polygon[kept]], np.int64),
-                       n_polygons=len(self.polygon))
+        return given.submesh(self.polygon, self.vertex, self.home)
 
     def images(self, twin: np.ndarray) -> np.ndarray:
         """Mirror images of all polygons, from those of the ones that are no copies.

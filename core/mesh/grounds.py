@@ -7,11 +7,11 @@ three times as wide was one part. So a ground is left out before anything is mea
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.indexing import frozen, place_among
+from ..arrays.indexing import place_among
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import TriMesh, vertex_components
@@ -46,11 +46,7 @@ class Standing:
 
     def without_grounds(self, given: PolygonMesh) -> PolygonMesh:
         """The mesh in which they were found, without grounds: k polygons and m vertices."""
-        number = place_among(self.polygon, given.n_polygons)
-        kept = number[given.polygon] >= 0
-        faces = place_among(self.vertex, given.triangles.n_vertices)[given.triangles.faces[kept]]
-        return replace(given, triangles=TriMesh(given.triangles.vertices[self.vertex], faces),
-                       polygon=frozen(number[given.polygon[kept]], np.int64), n_polygons=len(self.polygon))
+        return given.submesh(self.polygon, self.vertex, place_among(self.vertex, given.triangles.n_vertices))
 
 
 def find_standing(given: PolygonMesh) -> Standing | None:

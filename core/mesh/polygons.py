@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays.indexing import frozen
+from ..arrays.indexing import frozen, place_among
 from ..arrays.int64 import arange
 from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
@@ -101,6 +101,18 @@ class PolygonMesh:
         mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
         mesh._check_size()
         return mesh
+
+    def submesh(self, polygon: np.ndarray, vertex: np.ndarray, home: np.ndarray) -> PolygonMesh:
+        """Some of the polygons, on some of the vertices.
+
+        polygon : (k,) int64, rising. vertex : (m,) int64. home : (n,) int64, for each vertex that these polygons have,
+        the place in ``vertex`` of the one that they get.
+        """
+        number = place_among(polygon, self.n_polygons)
+        kept = number[self.polygon] >= 0
+        triangles = TriMesh(self.triangles.vertices[vertex], home[self.triangles.faces[kept]])
+        return replace(self, triangles=triangles, polygon=frozen(number[self.polygon[kept]], np.int64),
+                       n_polygons=len(polygon))
 
     def _check_size(self) -> None:
         """Raise EmptyMeshError if the mesh is too small to have parts."""

@@ -39,9 +39,17 @@ def contacts_and_links(
     joined, of_piece = components(count, *piece[contacts].T)
     if joined == 1:
         return contacts
-    mesh, body = working.mesh, of_piece[piece][working.polygon]
-    area, center = middles_of_each(body, mesh.face_centroids, mesh.face_weight, joined)
+    return np.concatenate([contacts, links(working, of_piece[piece], joined)])
+
+
+def links(working: WorkingMesh, body: np.ndarray, count: int) -> np.ndarray:
+    """Link bodies, each but the largest to the nearest of the larger ones: a face of each, (l, 2) int64.
+
+    body : (p,) int64, of each of the caller's faces, 0..count-1.
+    """
+    mesh, of_triangle = working.mesh, body[working.polygon]
+    area, center = middles_of_each(of_triangle, mesh.face_centroids, mesh.face_weight, count)
     known = np.flatnonzero(area > 0)  # the copy lacks the faces of others
-    links = known[nearest_larger(area[known], center[known])]
-    face = nearest_to_middle(body, mesh.face_centroids, center)
-    return np.concatenate([contacts, working.polygon[face[links]]])
+    pairs = known[nearest_larger(area[known], center[known])]
+    face = nearest_to_middle(of_triangle, mesh.face_centroids, center)
+    return working.polygon[face[pairs]]

@@ -9,8 +9,6 @@ import numpy as np
 
 from ..arrays.indexing import renumbered
 from ..arrays.int64 import full
-from ..arrays.nearest import nearest_to_middle
-from ..arrays.vectors import middles_of_each
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..mesh.face_graph import FaceGraph
@@ -19,6 +17,7 @@ from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
 from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of
+from .bodies import links
 from .component_results import merged_at_last
 from .decomposition import Decomposition
 
@@ -38,15 +37,15 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
     Returns
     -------
     decomposition : Decomposition
-        Each ground is a candidate, which merges last, and is linked to the middle of what stands there.
+        Each ground is a candidate, which merges last; it and what stands there are linked as bodies are.
     """
     kept, working = standing.polygon, repair(given)
     graph = face_graph_of(given, working)
     label, n_grounds = _labels(found, graph, kept)
     plain = found.asked(replace(found.parameters, n_parts=0))
-    links = _links(working, np.maximum(label - found.n_candidates + 1, 0))
+    between = links(working, np.maximum(label - found.n_candidates + 1, 0), n_grounds + 1)
     hierarchy = merged_at_last(Hierarchy.join([found.hierarchy, Hierarchy.of(n_grounds, [], [])]))
-    contacts = np.concatenate([kept[found.contacts], links])
+    contacts = np.concatenate([kept[found.contacts], between])
     tables = tables_of(given, working, FaceCandidates(graph, contacts, label, hierarchy))
     field = np.full(given.triangles.n_vertices, np.nan)
     field[given.triangles.used] = 0.0
@@ -58,7 +57,7 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
         side[kept] = found.face_side
     return replace(
         plain.scaled(-given.exponent), **tables.attributes(), hierarchy=hierarchy, field=field, contacts=contacts,
-        links=np.concatenate([kept[found.links], links]), face_twin=twin, face_side=side,
+        links=np.concatenate([kept[found.links], between]), face_twin=twin, face_side=side,
         notes=_notes(plain, working, n_grounds)).scaled(given.exponent).asked(found.parameters)
 
 
@@ -70,18 +69,6 @@ def _labels(found: Decomposition, graph: FaceGraph, kept: np.ndarray) -> tuple[n
     names, number = renumbered(graph.regions(label)[1][ground])
     label[ground] += number
     return label, len(names)
-
-
-def _links(working: WorkingMesh, body: np.ndarray) -> np.ndarray:
-    """A face in the middle of all that stands on grounds and one of each ground, (g, 2) int64.
-
-    body : (p,) int64, of each face, 0 of what stands, and the numbers of grounds.
-    """
-    of_triangle = body[working.polygon]
-    place, weight = working.mesh.face_centroids, working.mesh.face_weight
-    _, center = middles_of_each(of_triangle, place, weight, int(body.max()) + 1)
-    face = working.polygon[nearest_to_middle(of_triangle, place, center)]
-    return np.stack([np.repeat(face[:1], len(face) - 1), face[1:]], axis=1)
 
 
 def _notes(found: Decomposition, working: WorkingMesh, n_grounds: int) -> tuple[str, ...]:
