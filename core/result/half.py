@@ -59,12 +59,13 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
 def _of_one_side(whole: Decomposition, working: WorkingMesh) -> Iterator[str]:
     """The notes of the whole; those that the half has about its mesh, too, with how many there are in the half.
 
-    The whole has each vertex, border and face twice, so that this is half of its count, or that of the half where this
-    is less: at the plane, the whole alone has edges that join four faces, and the half alone has borders.
+    The whole has each vertex, border and face twice, but for what lies in the plane, so that this is half of its count,
+    or that of the half where this is less: at the plane, the whole alone has edges that join four faces, and the half
+    alone has borders.
     """
     own = {note.message: note.values["n"] for note in working.notes}
     for note in whole.notes:
         if isinstance(note, Sentence) and note.message in own:
-            yield Sentence(note.message, n=min(own[note.message], note.values["n"] // 2))
+            yield Sentence(note.message, n=min(own[note.message], -(-note.values["n"] // 2)))
         else:
             yield note

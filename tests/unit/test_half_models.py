@@ -126,6 +126,15 @@ def test_notes_count_what_the_half_has():
         assert share == 0.5 or note == of_half
 
 
+def test_a_note_on_an_edge_in_the_plane_counts_it_once():
+    """Where half a box and two fins meet in the plane, the whole has one such edge, too; it read "0 edges"."""
+    box = [(0, 3, 2, 1), (4, 5, 6, 7), (1, 2, 6, 5), (0, 1, 5, 4), (2, 3, 7, 6)]
+    vertices = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1),
+                         (0.6, -0.5, 0), (0.6, -0.5, 1), (0.3, -0.7, 0), (0.3, -0.7, 1)])
+    notes = decompose(vertices, [*box, (0, 4, 9, 8), (0, 4, 11, 10)], mirror=X).notes
+    assert "1 edge joins more than two faces (non-manifold)." in notes
+
+
 def test_contacts_of_a_half_are_between_faces_that_it_has():
     ball = shapes.icosphere(2)
     beside = shapes.moved(shapes.icosphere(2, 0.5), (1.49, 0, 0))
