@@ -121,11 +121,19 @@ def decompose(
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
             given, hint = without_copies(given, copies), hint[copies.polygon] if len(hint) else hint
         standing = find_standing(given) if plane is None and parameters.pieces == TOGETHER else None
+
+    def of_another(
+        vertices: np.ndarray, triangles: np.ndarray, polygon: np.ndarray, hint: np.ndarray
+    ) -> Decomposition:
+        """The result for what is decomposed in place of the mesh; its vertices are in the unit of ``given``."""
+        return decompose(np.ldexp(vertices, given.exponent), triangles, parameters, polygon, progress, model,
+                         join_model, hints=hint if len(hint) else None)
+
     if standing is not None:
         left = standing.without_grounds(given)
-        result = with_grounds(decompose(
-            np.ldexp(left.triangles.vertices, given.exponent), left.triangles.faces, parameters, left.polygon, progress,
-            model, join_model, hints=hint[standing.polygon] if len(hint) else None), given, standing)
+        found = of_another(left.triangles.vertices, left.triangles.faces, left.polygon,
+                           hint[standing.polygon] if len(hint) else hint)
+        result = with_grounds(found, given, standing)
     elif plane is None:
         with watch.stage("mesh", 0.4 * MESH_SHARE):
             # From here on the unsorted mesh and its tables are free.
@@ -134,9 +142,7 @@ def decompose(
         result = _decomposed(given, ordering, hint, parameters, watch, model, join_model)
     else:
         whole = completed(given, plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent]))
-        result = of_half(decompose(
-            np.ldexp(whole.vertices, given.exponent), whole.triangles, parameters, whole.polygon, progress, model,
-            join_model, hints=np.tile(hint, 2) if len(hint) else None), given)
+        result = of_half(of_another(whole.vertices, whole.triangles, whole.polygon, np.tile(hint, 2)), given)
     return result.with_copies(copies, area) if copies else result
 
 
