@@ -10,7 +10,6 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import sums_by
-from ..arrays.int64 import arange
 from ..graph.critical import SADDLE
 from ..graph.reeb import ReebGraph
 
@@ -21,13 +20,8 @@ def arc_lengths(graph: ReebGraph) -> np.ndarray:
     step = np.linalg.norm(np.diff(graph.point_position, axis=0), axis=1)
     same = graph.point_arc[1:] == graph.point_arc[:-1]
     length = sums_by(graph.point_arc[1:][same], step[same], graph.n_arcs)
-    start, end = graph.arc_points[:-1], graph.arc_points[1:]
-    full = np.flatnonzero(end > start)
-    length[full] += np.linalg.norm(graph.point_position[start[full]] - first[full], axis=1)
-    length[full] += np.linalg.norm(graph.point_position[end[full] - 1] - last[full], axis=1)
-    bare = end == start
-    length[bare] = np.linalg.norm(first - last, axis=1)[bare]
-    return length
+    length += np.linalg.norm(graph.point_position[graph.arc_points[:-1]] - first, axis=1)
+    return length + np.linalg.norm(graph.point_position[graph.arc_points[1:] - 1] - last, axis=1)
 
 
 def unfolded(graph: ReebGraph, node_part: np.ndarray, point_part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -65,15 +59,13 @@ def arc_segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:
 
     arcs : (q,) bool.
     """
-    points = graph.n_nodes + arange(len(graph.point_value))
     following = np.flatnonzero((graph.point_arc[1:] == graph.point_arc[:-1]) & arcs[graph.point_arc[1:]])
-    inner = np.stack([points[following], points[following + 1]], axis=1)
-    full = np.flatnonzero((np.diff(graph.arc_points) > 0) & arcs)
-    first, last = points[graph.arc_points[full]], points[graph.arc_points[full + 1] - 1]
-    bare = graph.arcs[(np.diff(graph.arc_points) == 0) & arcs]
+    shown = np.flatnonzero(arcs)
+    lower, upper = graph.arcs[shown].T
     return np.concatenate([
-        inner, bare, np.stack([graph.arcs[full, 0], first], axis=1), np.stack([last, graph.arcs[full, 1]], axis=1),
-    ]).astype(np.int64)
+        graph.n_nodes + np.stack([following, following + 1], axis=1),
+        np.stack([lower, graph.n_nodes + graph.arc_points[shown]], axis=1),
+        np.stack([graph.n_nodes + graph.arc_points[shown + 1] - 1, upper], axis=1)])
 
 
 def without_scraps(segments: np.ndarray, part: np.ndarray, seen: np.ndarray, n_nodes: int) -> np.ndarray:

@@ -138,11 +138,10 @@ def _handles(shapes: Shapes) -> list[int]:
     point = parts.point_part
     # Every step along the graph from one part into another.
     same = graph.point_arc[1:] == graph.point_arc[:-1]
-    full = np.flatnonzero(np.diff(graph.arc_points))
     steps = np.concatenate([
         np.stack([point[:-1][same], point[1:][same]], axis=1),
-        np.stack([parts.node_part[graph.arcs[full, 0]], point[graph.arc_points[full]]], axis=1),
-        np.stack([point[graph.arc_points[full + 1] - 1], parts.node_part[graph.arcs[full, 1]]], axis=1)])
+        np.stack([parts.node_part[graph.arcs[:, 0]], point[graph.arc_points[:-1]]], axis=1),
+        np.stack([point[graph.arc_points[1:] - 1], parts.node_part[graph.arcs[:, 1]]], axis=1)])
     crossings = np.bincount(steps[steps[:, 0] != steps[:, 1]].ravel(), minlength=parts.count)
     return [part for part in range(parts.count) if crossings[part] == 2 and len(shapes.neighbors[part]) == 1
             and shapes.elongation[part] > _BENT

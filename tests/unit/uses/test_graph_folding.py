@@ -9,15 +9,22 @@ import shapes
 from core import decompose
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE
 from core.graph.reeb import ReebGraph
-from core.uses.graph_folding import arc_lengths, unfolded, without_scraps
+from core.uses.graph_folding import arc_lengths, arc_segments, unfolded, without_scraps
 
 
 def graph_of(kinds, positions, arcs):
-    """A graph without center points."""
+    """A graph of straight arcs, each with one center point, in its middle."""
+    positions, arcs, none = np.array(positions, float), np.array(arcs, np.int64), np.zeros(len(arcs))
     return replace(
         ReebGraph.empty(), node_kind=np.array(kinds, np.int8), node_value=np.linspace(0, 1, len(kinds)),
-        node_position=np.array(positions, float), arcs=np.array(arcs, np.int64),
-        arc_points=np.zeros(len(arcs) + 1, np.int64), n_components=1)
+        node_position=positions, arcs=arcs, arc_points=np.arange(len(arcs) + 1),
+        point_position=positions[arcs].mean(axis=1), point_radius=none, point_length=none, point_value=none,
+        n_components=1)
+
+
+def folded(graph, part):
+    """What is unfolded if each center point lies in the part of the node below it."""
+    return unfolded(graph, part, part[graph.arcs[:, 0]])
 
 
 # A body with its middle (0) and two saddles (1, 2); from 1 a leg (3) and a bump of the body (4), from 2 a head (5)
@@ -26,29 +33,41 @@ ANIMAL = graph_of(
     [MINIMUM, SADDLE, SADDLE, MAXIMUM, MAXIMUM, SADDLE, MAXIMUM, MAXIMUM],
     [(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, -3, 0), (1, 1, 0), (3, 0, 0), (3, 2, 0), (3, 0, 1)],
     [(0, 1), (1, 2), (1, 3), (1, 4), (2, 5), (5, 6), (5, 7)])
-NO_POINTS = np.empty(0, np.int64)
 
 
 def test_lengths_by_hand():
     np.testing.assert_allclose(arc_lengths(ANIMAL), [1, 1, 3, 1, 1, 2, 1])
 
 
+def test_points_of_an_arc_follow_each_other():
+    """An arc from node 0 to 1 by the points 3, 4 and 5, which is bent, and one from 1 to 2 by 6; nodes come first."""
+    bent = replace(
+        graph_of([MINIMUM, SADDLE, MAXIMUM], [(0, 0, 0), (4, 0, 0), (6, 0, 0)], [(0, 1), (1, 2)]),
+        arc_points=np.array([0, 3, 4]), point_position=np.array([(0, 1, 0), (2, 1, 0), (4, 1, 0), (5, 0, 0)], float),
+        point_value=np.zeros(4))
+    np.testing.assert_allclose(arc_lengths(bent), [6, 2])
+    both = {tuple(segment) for segment in arc_segments(bent, np.array([True, True])).tolist()}
+    assert both == {(0, 3), (3, 4), (4, 5), (5, 1), (1, 6), (6, 2)}
+    assert arc_segments(bent, np.array([False, True])).tolist() == [[1, 6], [6, 2]]
+    assert arc_segments(bent, np.array([False, False])).shape == (0, 2)
+
+
 def test_one_part_needs_one_node():
-    nodes, arcs = unfolded(ANIMAL, np.zeros(8, np.int64), NO_POINTS)
+    nodes, arcs = folded(ANIMAL, np.zeros(8, np.int64))
     assert nodes.sum() == 1
     assert not arcs.any()
 
 
 def test_body_leg_and_head_by_hand():
     # The ear that reaches less far goes, and one of the body's two ends, which reach equally far.
-    nodes, arcs = unfolded(ANIMAL, np.array([0, 0, 0, 1, 0, 2, 2, 2]), NO_POINTS)
+    nodes, arcs = folded(ANIMAL, np.array([0, 0, 0, 1, 0, 2, 2, 2]))
     assert np.flatnonzero(~arcs).tolist() in ([0, 6], [3, 6])
     assert nodes[[1, 3, 6]].all()  # the saddle at the leg, the ends of leg and ear
     assert not nodes[[2, 5, 7]].any()  # nothing branches off there any more
 
 
 def test_every_ear_of_its_own_is_shown():
-    nodes, arcs = unfolded(ANIMAL, np.array([0, 0, 0, 1, 0, 2, 3, 4]), NO_POINTS)
+    nodes, arcs = folded(ANIMAL, np.array([0, 0, 0, 1, 0, 2, 3, 4]))
     assert nodes[[3, 5, 6, 7]].all()
     assert arcs[[2, 4, 5, 6]].all()
 
@@ -56,7 +75,7 @@ def test_every_ear_of_its_own_is_shown():
 def test_a_loop_within_one_part_stays():
     ring = graph_of([MINIMUM, SADDLE, SADDLE, MAXIMUM], [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)],
                     [(0, 1), (1, 2), (1, 2), (2, 3)])
-    nodes, arcs = unfolded(ring, np.zeros(4, np.int64), NO_POINTS)
+    nodes, arcs = folded(ring, np.zeros(4, np.int64))
     assert arcs[[1, 2]].all()
     assert nodes[[1, 2]].any()
 
@@ -96,7 +115,7 @@ def test_a_branch_is_as_long_as_its_stages_together():
     then the far half of the long branch, which is 2 long until then and 4 with its other half; so 1 comes before 2."""
     star = graph_of([SADDLE, MAXIMUM, SADDLE, MAXIMUM, MAXIMUM],
                     [(0, 0, 0), (-3, 0, 0), (2, 0, 0), (4, 0, 0), (2, 0.5, 0)], [(0, 1), (0, 2), (2, 3), (2, 4)])
-    nodes, arcs = unfolded(star, np.zeros(5, np.int64), NO_POINTS)
+    nodes, arcs = folded(star, np.zeros(5, np.int64))
     assert np.flatnonzero(nodes).tolist() == [0]
     assert not arcs.any()
 
@@ -105,7 +124,7 @@ def test_a_part_of_passages_keeps_the_first():
     """In a row: an end, one saddle that is all of its part, two that are another part, an end."""
     row = graph_of([MINIMUM, SADDLE, SADDLE, SADDLE, MAXIMUM], [(x, 0, 0) for x in range(5)],
                    [(0, 1), (1, 2), (2, 3), (3, 4)])
-    nodes, arcs = unfolded(row, np.array([0, 1, 2, 2, 3]), NO_POINTS)
+    nodes, arcs = folded(row, np.array([0, 1, 2, 2, 3]))
     assert np.flatnonzero(nodes).tolist() == [0, 1, 2, 4]
     assert arcs.all()
 
