@@ -96,12 +96,12 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     if np.array_equal(asked, before):
         return asked
     mesh_tables = mesh_tables or bridge.face_graph(obj)
+    graph, touching = mesh_tables[0], mesh_tables[0].with_contacts(found.contacts)
     face_numbers, also = pins.mirrored_too(obj.data, stored, before, asked, found.face_twin)
     if also:
-        face_numbers = cleaned(
-            MirroredChange(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers))
+        face_numbers = cleaned(MirroredChange(graph, touching, found.face_twin, before, asked, face_numbers))
     if beside_taken:  # last, as a part and its image may cut off together what neither does alone
-        face_numbers = _with_small_pieces(stored, mesh_tables[0], face_numbers, beside_taken)
+        face_numbers = _with_small_pieces(stored, touching, face_numbers, beside_taken)
     moved = face_numbers != before
     if not moved.any():
         return face_numbers
@@ -116,13 +116,15 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     return face_numbers
 
 
-def _with_small_pieces(stored: Stored, graph: FaceGraph, after: np.ndarray, beside_taken: float) -> np.ndarray:
-    """The part of each face after a change, (p,), with small pieces that it cuts off; on both sides alike."""
+def _with_small_pieces(stored: Stored, touching: FaceGraph, after: np.ndarray, beside_taken: float) -> np.ndarray:
+    """The part of each face after a change, (p,), with small pieces that it cuts off; on both sides alike.
+
+    touching : all faces that touch, by edges or contacts.
+    """
     from ...core.result.editing.mirrored import twin_numbers
     from ...core.result.editing.remainders import halved_between_images, with_small_pieces
 
     found, numbered = stored.decomposition, stored.shown_parts()
-    touching = graph.with_contacts(found.contacts)
     along = with_small_pieces(touching, stored.face_numbers, after, beside_taken)
     if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
         return along

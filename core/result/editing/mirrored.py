@@ -36,8 +36,8 @@ class MirroredChange:
     ----------
     graph : FaceGraph
         Of p faces.
-    contacts : (t, 2) int64
-        Faces of different pieces that touch.
+    touching : FaceGraph
+        All of these that touch: with contacts between faces of different pieces.
     twin : (p,) int64
         Mirror image of each face; -1 for none.
     before, asked, both : (p,) int64
@@ -45,7 +45,7 @@ class MirroredChange:
     """
 
     graph: FaceGraph
-    contacts: np.ndarray
+    touching: FaceGraph
     twin: np.ndarray
     before: np.ndarray
     asked: np.ndarray
@@ -55,11 +55,6 @@ class MirroredChange:
     def extra(self) -> np.ndarray:
         """(p,) bool, faces that the image changed."""
         return self.both != self.asked
-
-    @cached_property
-    def touching(self) -> FaceGraph:
-        """All faces that touch: the graph with the contacts."""
-        return self.graph.with_contacts(self.contacts)
 
     @cached_property
     def regions(self) -> tuple[np.ndarray, np.ndarray]:

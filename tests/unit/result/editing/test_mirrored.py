@@ -12,7 +12,7 @@ from core.result.editing.mirrored import MirroredChange, cleaned, gathered, on_b
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]
 TWIN = list(range(9, -1, -1))
 NUMBERS = {1: 2, 2: 1, 3: 3}
-NO_TWIN, NO_CONTACTS = np.full(10, -1), np.empty((0, 2), np.int64)
+NO_TWIN = np.full(10, -1)
 
 
 @pytest.mark.parametrize(("after", "expected"), [
@@ -68,7 +68,7 @@ def test_crumbs_that_an_image_leaves_join_the_part_around_them(asked, both, expe
     row = np.arange(9)
     graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), area)
     before = np.array([1, 1, 1, 1, 3, 3, 2, 2, 2, 2])
-    change = MirroredChange(graph, NO_CONTACTS, NO_TWIN, before, np.array(asked), np.array(both))
+    change = MirroredChange(graph, graph, NO_TWIN, before, np.array(asked), np.array(both))
     assert without_crumbs(change).tolist() == expected
 
 
@@ -77,7 +77,7 @@ def test_a_large_piece_that_an_image_leaves_is_a_part():
     graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), np.ones(10))
     both = np.array([4, 4, 1, 1, 3, 3, 2, 2, 5, 2])
     before, asked = np.array([[1, 1, 1, 1, 3, 3, 2, 2, 2, 2], [4, 4, 1, 1, 3, 3, 2, 2, 2, 2]])
-    assert without_crumbs(MirroredChange(graph, NO_CONTACTS, NO_TWIN, before, asked, both)).tolist() == both.tolist()
+    assert without_crumbs(MirroredChange(graph, graph, NO_TWIN, before, asked, both)).tolist() == both.tolist()
 
 
 def test_two_faces_with_one_image_both_change_with_it():
@@ -96,7 +96,7 @@ def gathered_row(image, twin):
     pairs = np.stack([row[:-1], row[1:]], axis=1)
     graph = FaceGraph(16, np.delete(pairs, 7, axis=0), np.ones(14), np.ones(16))
     both = np.array([*CUT[:8], *image])
-    return gathered(MirroredChange(graph, NO_CONTACTS, np.append(row[8:], twin), ROW, CUT, both)).tolist()
+    return gathered(MirroredChange(graph, graph, np.append(row[8:], twin), ROW, CUT, both)).tolist()
 
 
 @pytest.mark.parametrize(("twin", "expected"), [
@@ -121,5 +121,5 @@ def test_what_touches_its_part_is_no_crumb(contacts, last):
     both[6] = 5
     twin = np.array([6, 7, -1, -1, -1, -1, 0, 1, -1, -1])
     contacts = np.array(contacts, np.int64).reshape(-1, 2)
-    found = cleaned(MirroredChange(graph, contacts, twin, before, asked, both))
+    found = cleaned(MirroredChange(graph, graph.with_contacts(contacts), twin, before, asked, both))
     assert found.tolist() == [4, 1, 1, 1, 3, 3, 5, 2, 6, last]
