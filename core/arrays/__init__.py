@@ -3,6 +3,7 @@
 
 - ``int64``: whole numbers that have as many bits on every system
 - ``indexing``: orders, sums by group, ranges, numbering
+- ``hashes``: numbers that are equal for equal things, and hardly ever for others
 - ``ties``: numbers that are equal but for rounding
 - ``components``: what hangs together
 - ``vectors``: products and lengths of many vectors

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.indexing import GOLDEN, begins_run, hashed_rows, inverse, stable_order
+from ..arrays.hashes import GOLDEN, hashed_rows
+from ..arrays.indexing import begins_run, inverse, stable_order
 from ..arrays.int64 import arange, cumsum
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import vertex_components

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.hashes import GOLDEN
 from ..arrays.indexing import (
-    GOLDEN,
     first_of_rows,
     inverse,
     largest_of_each,

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..arrays.hashes import hashed_rows
 from ..arrays.indexing import (
     bounds_of_each,
     frozen,
-    hashed_rows,
     inverse,
     places_of_ties,
     renumbered,

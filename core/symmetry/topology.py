@@ -16,7 +16,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays.components import components
-from ..arrays.indexing import GOLDEN
+from ..arrays.hashes import GOLDEN
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import middles_of_each, weighted_sum

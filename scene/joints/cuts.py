@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.components import components
-from ...core.arrays.indexing import hashed_sets
+from ...core.arrays.hashes import hashed_sets
 from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.triangles import EdgeTable

@@ -11,7 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.arrays.indexing import hashed_sets, inverse
+from ...core.arrays.hashes import hashed_sets
+from ...core.arrays.indexing import inverse
 from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.pairs import distinct_pairs, repeated_in
 from ...core.mesh.borders import GAP

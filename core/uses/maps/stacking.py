@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...arrays.indexing import hashed_sets
+from ...arrays.hashes import hashed_sets
 from ...arrays.int64 import arange, full
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane

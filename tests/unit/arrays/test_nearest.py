@@ -25,6 +25,13 @@ def test_against_all_points_before(name):
     assert nearest_before(points).tolist() == wanted
 
 
+def test_of_points_equally_near_but_for_rounding_the_first():
+    """Of the grid, hundreds of points have several that are equally near; 1e-7 is what single precision leaves."""
+    grid = POINTS["on a grid"]
+    moved = grid + RNG.uniform(-1e-7, 1e-7, grid.shape)
+    assert nearest_before(moved).tolist() == nearest_before(grid).tolist()
+
+
 @pytest.mark.parametrize("name", POINTS)
 def test_links_lead_to_larger_points_and_never_apart(name):
     points = POINTS[name]
