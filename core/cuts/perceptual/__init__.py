@@ -6,5 +6,6 @@
 - ``thickness``: the solid under each face, and the space above it
 - ``features``: what the model is told of a cut, from sums of measures
 - ``merging``: the weakest cuts merged first
+- ``coarse_copies``: what dense meshes are cut on, and the way back
 - ``method``: runs these steps
 """
