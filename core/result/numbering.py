@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays.indexing import inverse, place_among, stable_order, sums_by
+from ..arrays.indexing import inverse, largest_of_each, place_among, stable_order, sums_by
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways, distinct_pairs
 from ..arrays.ties import TIE, ranks
@@ -129,9 +129,7 @@ def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) ->
     known = previous_number > 0
     pairs, pair = distinct_pairs(part[known], previous_number[known])
     overlap = sums_by(pair, weight[known], len(pairs))
-    largest = np.zeros(count)
-    np.maximum.at(largest, pairs[:, 0], overlap)
-    fits = overlap > (0.5 - TIE) * largest[pairs[:, 0]]
+    fits = overlap > (0.5 - TIE) * largest_of_each(pairs[:, 0], overlap, count)[pairs[:, 0]]
     pairs, overlap = pairs[fits], overlap[fits]
     taken = set()
     for new, number in pairs[stable_order(ranks(-np.log(overlap), 1.0))].tolist():

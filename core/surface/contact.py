@@ -316,15 +316,15 @@ class _Gaps:
         thing = arange(count)
         while True:
             first, second = thing[self.pieces].T
-            near = self.least <= NEAR_OF_THINGS * _lengths(moments[first] + moments[second])
+            near = self.least <= NEAR_OF_THINGS * _diameters(moments[first] + moments[second])
             count, joined = components(len(moments), first[near], second[near])
             if count == len(moments):
-                return thing, _lengths(moments)
+                return thing, _diameters(moments)
             moments, thing = sums_by(joined, moments, count), joined[thing]
 
 
-def _lengths(moments: np.ndarray) -> np.ndarray:
-    """Diameters, (k,) float64, of things by area, area times place and area times squared place, (k, 5)."""
+def _diameters(moments: np.ndarray) -> np.ndarray:
+    """``diameter`` of things, (k,) float64, by area, area times place and area times squared place, (k, 5)."""
     area, *place, square = moments.T
     area = np.maximum(area, np.finfo(float).tiny)
     return np.sqrt(12 * np.maximum(square / area - ((np.stack(place) / area) ** 2).sum(axis=0), 0.0))

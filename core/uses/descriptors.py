@@ -15,10 +15,10 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from ..arrays.indexing import sums_by, underflow_is_zero
+from ..arrays.indexing import underflow_is_zero
 from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways
-from ..arrays.vectors import middles_of_each
+from ..arrays.vectors import middles_of_each, second_moments_of_each
 from ..errors import MeshError
 from ..graph.critical import MAXIMUM
 from ..mesh.copies import find_copies
@@ -249,8 +249,8 @@ def _shape(surface: _Surface) -> dict[str, np.ndarray]:
     area = mesh.face_area
     total, middle = middles_of_each(label, mesh.face_centroids, area, count)
     offset = mesh.face_centroids - middle[label]
-    moment = sums_by(label, (area[:, None, None] * offset[:, :, None] * offset[:, None, :]).reshape(-1, 9), count)
-    spread = np.linalg.eigvalsh((moment / np.maximum(total, 1e-300)[:, None]).reshape(-1, 3, 3))[:, ::-1]
+    moment = second_moments_of_each(label, offset, area, count)
+    spread = np.linalg.eigvalsh(moment / np.maximum(total, 1e-300)[:, None, None])[:, ::-1]
     spread = np.log(np.maximum(np.sqrt(np.maximum(spread, 0.0)) / size[:, None], LEAST))
     apart = _apart(surface) / size[:, None]
     return {"log_length": spread[:, 0], "log_width": spread[:, 1], "log_height": spread[:, 2],

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays.indexing import bounds_of_each
-from ...arrays.vectors import middles_of_each
+from ...arrays.vectors import middles_of_each, second_moments_of_each
 from ...result.parts import Parts
 from .touching import LOOSE, Touching
 
@@ -106,8 +106,7 @@ class Shapes:
         total, middle = middles_of_each(labels, center, weight, count)
         low, high = bounds_of_each(labels[point_face], points, count)
         offset = center - middle[labels]
-        spread = np.stack([np.bincount(labels, weight * offset[:, i] * offset[:, j], count)
-                           for i in range(3) for j in range(3)], axis=1).reshape(-1, 3, 3) / total[:, None, None]
+        spread = second_moments_of_each(labels, offset, weight, count) / total[:, None, None]
         length = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, ::-1], 0.0))
         return cls(touching, low, high, middle, length, 0)
 
