@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import io
 from pathlib import Path
@@ -17,7 +16,7 @@ from like_colors import like_colors
 from scores import MEASURES, labels_path, mean, typical
 
 from core.mesh.triangles import TriMesh
-from core.uses.pictures import picture, png
+from core.uses.pictures import picture, png, png_address
 
 mpl.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "report", "font.size": 9, "axes.spines.top": False,
                      "axes.spines.right": False, "font.family": "sans-serif"})
@@ -216,5 +215,5 @@ def mesh_row(data: Path, out: Path, number: int, rows: list[dict], methods: list
 
 def image(mesh: TriMesh, labels: np.ndarray, reference: np.ndarray) -> str:
     """A picture of parts as an element of the page."""
-    data = base64.b64encode(png(picture(mesh, like_colors(labels, reference, mesh.face_area)))).decode()
-    return f'<img alt="" width="112" height="112" src="data:image/png;base64,{data}">'
+    data = png(picture(mesh, like_colors(labels, reference, mesh.face_area)))
+    return f'<img alt="" width="112" height="112" src="{png_address(data)}">'

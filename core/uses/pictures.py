@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import base64
 import struct
 import zlib
 from dataclasses import dataclass
@@ -202,3 +203,8 @@ def png(image: np.ndarray) -> bytes:
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)) + chunk(
         b"IEND", b"")
+
+
+def png_address(data: bytes) -> str:
+    """An image, encoded as PNG, as an address that a page in HTML holds it by."""
+    return f"data:image/png;base64,{base64.b64encode(data).decode()}"

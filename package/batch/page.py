@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import json
 import os
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
+from ..core.uses.pictures import png_address
 from ..output_files import write_files
 
 PAGE = "index.html"
@@ -152,8 +152,7 @@ def _entry(out: Path, record: dict[str, Any], folder: Path, embedded: bool) -> d
     if "thumbnail.png" in record["files"]:
         image = f"{link}/thumbnail.png"
         if embedded:
-            data = (folder / "thumbnail.png").read_bytes()
-            image = f"data:image/png;base64,{base64.b64encode(data).decode()}"
+            image = png_address((folder / "thumbnail.png").read_bytes())
     return {"name": record["name"], "status": record["status"], "reason": record["reason"],
             "parts": model.get("n_parts"), "faces": model.get("faces"), "loops": model.get("loops"),
             "seconds": model.get("seconds"), "notes": model.get("notes", []), "image": image,

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import stat
 from collections.abc import Iterator
@@ -18,7 +17,7 @@ from ..core.file_names import kind_of, spelled
 from ..core.mesh.triangles import TriMesh
 from ..core.sentence import Sentence
 from ..core.uses.descriptors import NAMES, distances
-from ..core.uses.pictures import picture, png
+from ..core.uses.pictures import picture, png, png_address
 from ..model_files import read_model
 from ..outputs import LABELS
 from .records import digest_of, read_record
@@ -148,7 +147,7 @@ def _image(out: Path, path: str, part: dict[str, Any]) -> str:
             data = (folder / "thumbnail.png").read_bytes()
         except OSError:
             return ""
-    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
+    return f'<img alt="" src="{png_address(data)}">'
 
 
 def _labels(folder: Path) -> np.ndarray:
