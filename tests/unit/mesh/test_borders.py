@@ -30,6 +30,14 @@ def test_faces_that_were_all_taken_apart_are_neighbors_as_before(make, gap):
     np.testing.assert_array_equal(table.corner_vertex, first)  # each corner had a vertex of its own
 
 
+def test_a_vertex_of_no_face_does_not_say_how_near_is_near():
+    """Two squares a thousandth of their size apart, and a vertex a hundred times as far away."""
+    square, faces = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float), np.array([[0, 1, 2], [0, 2, 3]])
+    vertices = np.concatenate([square, square + (1.001, 0, 0), [(100.0, 0, 0)]])
+    _, first = table_of(vertices, np.concatenate([faces, faces + 4])).joined()
+    np.testing.assert_array_equal(first, np.arange(9))
+
+
 def test_closed_surfaces_that_touch_stay_apart():
     table = table_of(*shapes.together(shapes.box(), shapes.moved(shapes.box(), (1, 0, 0))))
     joined, first = table.joined()

@@ -67,6 +67,14 @@ def test_a_wall_that_two_solids_have_in_common_stays_in_both():
     assert find_copies(PolygonMesh.of(*shapes.together(block, shapes.moved(block, (1.0, 0.0, 0.0))))) is None
 
 
+@pytest.mark.parametrize(("share", "found"), [(0.8, False), (0.84, True)])
+def test_a_piece_of_which_most_is_there_twice_loses_its_copies(share, found):
+    """With copies, 8 of 9 parts of the area are there twice, or 42 of 46; of less than nine tenths these are walls."""
+    vertices, faces = shapes.icosphere(2)
+    twice = faces[: round(share * len(faces))]
+    assert (find_copies(PolygonMesh.of(vertices, np.concatenate([faces, twice]))) is not None) == found
+
+
 def test_of_two_pieces_one_may_have_every_face_twice():
     vertices, faces = shapes.together(shapes.icosphere(2), shapes.moved(shapes.icosphere(1), (5.0, 0.0, 0.0)))
     sphere = faces[:320]

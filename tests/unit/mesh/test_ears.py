@@ -7,7 +7,7 @@ import shapes
 from folding import LETTER_H, bumps, extruded
 
 from core.arrays.vectors import cross, lengths
-from core.mesh.ears import fans, without_folds
+from core.mesh.ears import fans, triangulated, without_folds
 from core.mesh.polygons import PolygonMesh
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
@@ -101,6 +101,16 @@ def test_whatever_polygons_there_are_their_corners_stay(seed):
         triangles = without_folds(vertices, fans.reshape(-1, 3), np.full(n, k)).reshape(n, -1)
     for polygon, row in enumerate(triangles):
         assert set(row.tolist()) == set(range(k * polygon, k * polygon + k))
+
+
+def test_the_shortest_cut_comes_first():
+    """An L, with its inner corner at (1, 1), to which all three cuts lead: of lengths sqrt(2), twice, and sqrt(5)."""
+    corners = np.array([(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 3, 0), (0, 3, 0)], float)
+    fan = np.array([2, 3, 4, 5, 0, 1])  # from there, one triangle lies outside
+    found, _ = triangulated(corners, fan, np.array([6]))
+    sides = np.sort(np.stack([found, np.roll(found, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    cuts, count = np.unique(sides, axis=0, return_counts=True)
+    assert cuts[count == 2].tolist() == [[0, 3], [1, 3], [3, 5]]
 
 
 def test_polygons_that_cross_themselves_keep_their_fans():

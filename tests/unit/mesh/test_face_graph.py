@@ -39,6 +39,12 @@ def test_connect_keeps_the_largest_and_gives_the_rest_to_the_longest_boundary():
     assert connect(graph, np.array([2, 2, 1, 1, 1, 2, 0])).tolist() == [1, 1, 1, 1, 1, 2, 0]
 
 
+@pytest.mark.parametrize(("label", "connected"), [([7, 4, 7, 4], [7, 4, 7, 7]), ([7, 4, 4, 7], [7, 4, 4, 4])])
+def test_of_two_strays_of_one_size_that_touch_nothing_else_the_first_keeps_its_label(label, connected):
+    graph = FaceGraph(4, np.array([[2, 3]]), np.ones(1), np.array([5.0, 5, 1, 1]))
+    assert connect(graph, np.array(label)).tolist() == connected
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_connected_whatever_the_labels(seed):
     rng = np.random.default_rng(seed)

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.mesh.triangles import TriMesh
-from core.surface.curvature import curvature_across, k_min
+from core.surface.curvature import angle_defect, curvature_across, k_min
 
 
 @pytest.mark.parametrize("radius", [1e-6, 0.5, 3.0, 1e6])
@@ -54,6 +54,20 @@ def test_torus():
     curvature = k_min(mesh)
     np.testing.assert_allclose(curvature[far > 1.349], 1 / 1.35, rtol=0.1)
     np.testing.assert_allclose(curvature[far < 0.651], -1 / 0.65, rtol=0.1)
+
+
+@pytest.mark.parametrize(("make", "euler"), [
+    (shapes.icosphere, 2), (shapes.torus, 0), (lambda: shapes.flat_grid(5, 3), 1),
+    (lambda: shapes.cylinder(12, 5, 1.0, 3.0, False), 0)])
+def test_angle_defects_are_those_of_gauss_and_bonnet(make, euler):
+    """At borders half a turn is missing; on a flat grid, the defect is in the corners alone."""
+    mesh = TriMesh(*make())
+    defect = angle_defect(mesh)
+    assert defect.sum() == pytest.approx(2 * np.pi * euler, abs=1e-9)
+    assert mesh.euler_characteristic == euler
+    if euler == 1:
+        corners = np.isin(mesh.faces, np.flatnonzero(np.abs(mesh.vertices).prod(axis=1) == 0)).any(axis=1)
+        assert np.abs(defect[~corners]).max(initial=0) < 1e-12
 
 
 def test_lowest_in_the_neck():

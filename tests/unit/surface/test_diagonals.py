@@ -7,6 +7,7 @@ import shapes
 
 from core import decompose
 from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
 from core.surface.diagonals import divided_by_shape
 from core.surface.ordering import sorted_by_place
 
@@ -53,6 +54,16 @@ def test_diagonals_end_far_out_and_the_outer_triangle_comes_first():
         middle, out, beside, above = (0, 0, 0), (x, y, 0), (x, 0, 0), (0, y, 0)
         assert divided(vertices, faces)[frozenset([middle, beside, out, above])] == [
             {middle, out, above}, {middle, out, beside}]  # 1.1 from the middle, and 1
+
+
+def test_of_diagonals_that_end_as_far_out_the_other_end_decides():
+    """Two corners are equally far from the middle, one on each diagonal; of the others that of the first is farther."""
+    vertices = np.array([(3, 2, 0), (-3, 2, 0), (-2, -2.5, 0), (2, -1.5, 0)])
+    for first in range(4):
+        face = (np.arange(4) + first) % 4
+        mesh = TriMesh(vertices, [[face[0], face[1], face[2]], [face[0], face[2], face[3]]])
+        faces = divided_by_shape(mesh, np.zeros(2, np.int64)).faces
+        assert all({0, 2} <= set(triangle) for triangle in faces.tolist())
 
 
 def test_what_is_no_convex_quadrilateral_stays():

@@ -103,6 +103,30 @@ def test_what_has_one_side_only_stays_as_it_is():
     assert not against_neighbors(table).any()
 
 
+@pytest.mark.parametrize("way", [1, -1])
+def test_what_is_closed_and_has_one_side_stays_as_it_is(way):
+    """A bottle of Klein: a tube whose ends are joined the other way round; it encloses any volume."""
+    around, along = np.meshgrid(np.arange(8), np.arange(12))
+    corner = np.arange(96).reshape(12, 8)
+    after = np.concatenate([corner[1:], corner[:1, (-np.arange(8)) % 8]])
+    quads = np.stack([corner, np.roll(corner, -1, axis=1), np.roll(after, -1, axis=1), after], axis=-1).reshape(-1, 4)
+    u, v = 2 * np.pi * around.ravel() / 8, 2 * np.pi * along.ravel() / 12
+    vertices = np.stack([(3 + np.cos(u)) * np.cos(v), (3 + np.cos(u)) * np.sin(v), np.sin(u)], axis=1)
+    table = CornerTable.of(vertices, quads[:, ::way])
+    assert (table.n_edge_faces == 2).all()
+    assert table.contrary_edges().sum() == 8
+    assert not against_neighbors(table).any()
+
+
+@pytest.mark.parametrize(("size", "turned"), [(0.02, False), (0.2, True)])
+def test_an_open_piece_that_is_a_speck_keeps_its_side(size, turned):
+    """Less than 0.002 of the area: a ball of a fiftieth of the radius of another one, inside out, with a hole."""
+    speck = shapes.inside_out(OPEN["ball"]())
+    speck = shapes.moved(shapes.Shape(size * speck.vertices, speck.faces), (3, 0, 0))
+    _, notes = turn_outwards(TriMesh(*shapes.together(shapes.icosphere(3), speck)))
+    assert bool(notes) == turned
+
+
 def test_what_looks_inwards_is_closed_and_agrees():
     """A ball, turned; around another one that is turned, as a hollow one has, it is none; nor is half of one."""
     ball = shapes.icosphere(2)

@@ -98,6 +98,16 @@ def test_a_sheet_beside_or_within_a_ball_is_found_alone():
         np.testing.assert_array_equal(sheet, np.arange(mesh.n_faces) >= len(ball.faces))
 
 
+@pytest.mark.parametrize(("width", "found"), [(0.5, False), (1.2, True)])
+def test_a_sheet_that_is_a_small_share_of_the_surface_is_none(width, found):
+    """Beside a ball of area 4 pi, a square of 0.02 of it, and one of 0.1."""
+    square = shapes.flat_grid(6, 6)
+    square = shapes.moved(Shape(width / 6 * square.vertices, square.faces), (2, 0, 0))
+    shape = shapes.together(shapes.icosphere(3), square)
+    sheet = sheet_faces(TriMesh(*shape), TriMesh(*shape).face_centroids @ (0.3, 0.5, 0.7))
+    assert sheet.tolist() == [False] * 1280 + [found] * 72
+
+
 def test_two_sheets_that_enclose_a_solid_are_none():
     """The front and the back of a lens: each alone would be one."""
     front = cut(shapes.icosphere(4), lambda c: c[:, 2] > 0.87)

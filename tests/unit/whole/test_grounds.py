@@ -28,6 +28,14 @@ def tree():
     return shapes.moved(shapes.tube_tree(), (0, 0, -shapes.tube_tree().vertices[:, 2].min()))
 
 
+def column(height, foot):
+    """A box of many faces, 1 wide."""
+    shape = shapes.box((1, 1, height))
+    for _ in range(3):
+        shape = shapes.subdivide(shape)
+    return shapes.moved(shape, (0, 0, foot))
+
+
 def has_ground(*things):
     return find_standing(PolygonMesh.of(*shapes.together(*things))) is not None
 
@@ -116,6 +124,14 @@ def test_what_is_no_ground():
     assert not has_ground(sheet(6, 3), shapes.box((1, 1, 1)), shapes.moved(shapes.box((1, 1, 1)), (0, 0, -1)))
     assert not has_ground(sheet(6, depth=1), box)  # as few faces have both
     assert not has_ground(sheet(1e6), box)
+    tower = column(12, 0)
+    assert not has_ground(shapes.moved(shapes.box((4, 4, 3)), (-1.5, -1.5, -3)), tower)  # no slab, and it is less high
+
+
+def test_what_is_sunk_into_a_slab_stands_on_it():
+    """Higher than the slab is wide; a twelfth of its area is below the middle of the slab, but none below the slab."""
+    assert has_ground(sheet(6, depth=1), column(10, -0.9))
+    assert not has_ground(sheet(6, depth=1), column(10, -5))
 
 
 def test_a_half_model_on_half_a_ground():
