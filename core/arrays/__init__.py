@@ -8,6 +8,7 @@
 - ``components``: what hangs together
 - ``vectors``: products and lengths of many vectors
 - ``pairs``: pairs of whole numbers
+- ``systems``: sparse linear systems of surfaces
 - ``nearest``: the search of many points for their nearest
 - ``nearest_seeds``: the nearest of several seeds along the ways of a graph
 """

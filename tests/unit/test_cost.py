@@ -41,6 +41,13 @@ def fan(n_faces, height):
                         np.stack([np.zeros(n_faces, int), 1 + index, 1 + (index + 1) % n_faces], axis=1))
 
 
+def jagged(n_faces):
+    """A flat figure of needles around one vertex, as of a picture's outline that was filled as a fan."""
+    shape, rng = fan(n_faces, 0.0), np.random.default_rng(3)
+    shape.vertices[1:] *= rng.uniform(0.6, 1.0, (n_faces, 1))
+    return shape
+
+
 def tetrahedra(count, size=1.0):
     """Far from each other, at random."""
     one, rng = shapes.tetrahedron(), np.random.default_rng(0)
@@ -142,11 +149,11 @@ def crumpled(count):
 
 ODD = {
     "ribbon": lambda: ribbon(120, 1e-6), "long ribbon": lambda: ribbon(5000, 1e-3), "fan": lambda: fan(10_000, 1.0),
-    "flat fan": lambda: fan(6_000, 0.3), "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
-    "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
-    "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
-    "lawn": lambda: lawn(2_500), "planks": lambda: planks(7), "crosses": lambda: crosses(5),
-    "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
+    "flat fan": lambda: fan(6_000, 0.3), "jagged fan": lambda: jagged(FACES), "tall fan": lambda: fan(120, 100.0),
+    "tetrahedra": lambda: tetrahedra(99), "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2),
+    "needles": lambda: needles(3), "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0),
+    "crumbs": lambda: shapes.crumbs(3000), "lawn": lambda: lawn(2_500), "planks": lambda: planks(7),
+    "crosses": lambda: crosses(5), "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
     "crossing triangles": lambda: crossing(1000), "welded triangles": lambda: welded(1000),
     "pages": lambda: pages(1000), "spikes": lambda: spikes(700),
 }

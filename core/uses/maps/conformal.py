@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array, diags_array
-from scipy.sparse.linalg import splu
 
 from ...arrays.indexing import sums_by
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
+from ...arrays.systems import solved
 from ...arrays.vectors import cross, lengths, row_products
 from ...mesh.corners import CornerTable
 from ...mesh.triangles import corner_sides
@@ -72,14 +72,3 @@ class ConformalFactor:
         if len(free):
             scale[free] = solved(self.laplacian[free][:, free], -self.curvature[free])
         return scale
-
-
-def solved(matrix: csr_array, right: np.ndarray) -> np.ndarray:
-    """Solve a system whose matrix is symmetric and positive definite.
-
-    matrix : (k, k) scipy.sparse.csr_array. right : (k,) float64. Returns (k,) float64.
-    """
-    # Surfaces fill in so little that narrow panels are a quarter faster than SuperLU's own.
-    factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, relax=20, panel_size=2,
-                   options={"SymmetricMode": True})
-    return factors.solve(right)

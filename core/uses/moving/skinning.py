@@ -15,10 +15,11 @@ from scipy.spatial.transform import Rotation
 from ...arrays.indexing import bounds_of_each, largest_of_each
 from ...arrays.int64 import arange, full
 from ...arrays.pairs import distinct_pairs, symmetric_matrix
+from ...arrays.systems import solved
 from ...arrays.vectors import across, lengths
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
-from ..maps.conformal import ConformalFactor, solved
+from ..maps.conformal import ConformalFactor
 from .bone_trees import following
 from .bones import Bones
 
