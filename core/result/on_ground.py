@@ -11,6 +11,7 @@ from ..arrays.indexing import renumbered
 from ..arrays.int64 import full
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
+from ..cuts.settling import settle
 from ..mesh.face_graph import FaceGraph
 from ..mesh.grounds import Standing
 from ..mesh.polygons import PolygonMesh
@@ -46,7 +47,9 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
     between = links(working, np.maximum(label - found.n_candidates + 1, 0), n_grounds + 1)
     hierarchy = merged_at_last(Hierarchy.join([found.hierarchy, Hierarchy.of(n_grounds, [], [])]))
     contacts = np.concatenate([kept[found.contacts], between])
-    tables = tables_of(given, working, FaceCandidates(graph, contacts, label, hierarchy))
+    # A ground may be linked to another one, and not to what stands there.
+    candidates = settle(FaceCandidates(graph, contacts, label, hierarchy))
+    tables = tables_of(given, working, candidates)
     field = np.full(given.triangles.n_vertices, np.nan)
     field[given.triangles.used] = 0.0
     field[standing.vertex] = found.field
@@ -56,8 +59,8 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
         twin[kept] = np.append(kept, -1)[found.face_twin]
         side[kept] = found.face_side
     return replace(
-        plain.scaled(-given.exponent), **tables.attributes(), hierarchy=hierarchy, field=field, contacts=contacts,
-        links=np.concatenate([kept[found.links], between]), face_twin=twin, face_side=side,
+        plain.scaled(-given.exponent), **tables.attributes(), hierarchy=candidates.hierarchy, field=field,
+        contacts=contacts, links=np.concatenate([kept[found.links], between]), face_twin=twin, face_side=side,
         notes=_notes(plain, working, n_grounds)).scaled(given.exponent).asked(found.parameters)
 
 

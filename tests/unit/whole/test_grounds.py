@@ -6,6 +6,7 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.arrays.components import components
 from core.mesh.grounds import find_standing
 from core.mesh.polygons import PolygonMesh
 from core.parameters import SEPARATE
@@ -88,6 +89,20 @@ def test_floor_and_wall_are_grounds():
     np.testing.assert_array_equal(found.candidates[:len(tree().faces)], decompose(*tree()).candidates)
     assert len(set(labels[-4:])) == 2
     assert "The rest is decomposed without 2 large plain pieces, such as a floor." in map(str, found.notes)
+
+
+def test_what_a_part_is_made_of_hangs_together_where_grounds_are_linked_to_each_other():
+    """The smaller ground is linked to the larger one, and joined what stands there first, far from it."""
+    small, large = shapes.moved(sheet(30), (10, 0, -1)), shapes.moved(sheet(90), (0, 0, -2))
+    found = decompose(*shapes.together(tree(), small, large))
+    labels = found.parts(n_parts=2).labels
+    assert len(set(labels[-4:])) == 2
+    assert labels[0] == labels[-1] != labels[-3]
+    pairs = found.candidate_pairs
+    for n in range(1, found.n_candidates + 1):
+        part = np.empty(found.n_candidates, np.int64)
+        part[found.candidates] = found.parts(n_parts=n).labels
+        assert components(len(part), *pairs[part[pairs[:, 0]] == part[pairs[:, 1]]].T)[0] == n
 
 
 def test_things_on_a_floor_are_parts_of_their_own():
