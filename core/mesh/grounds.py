@@ -13,6 +13,7 @@ import numpy as np
 
 from ..arrays.indexing import place_among
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
+from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import TriMesh, vertex_components
 
@@ -79,6 +80,26 @@ def find_standing(given: PolygonMesh) -> Standing | None:
     vertex = ~mesh.used
     vertex[mesh.faces[is_standing[given.polygon]]] = True
     return Standing(np.flatnonzero(is_standing), np.flatnonzero(vertex))
+
+
+def are_ground(given: PolygonMesh) -> np.ndarray:
+    """Find the polygons that are ground, as ``decompose`` does: copies of faces do not count.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+        With p polygons.
+
+    Returns
+    -------
+    is_ground : (p,) bool
+    """
+    copies = find_copies(given)
+    standing = find_standing(copies.without(given) if copies else given)
+    is_ground = np.full(len(copies.polygon) if copies else given.n_polygons, standing is not None)
+    if standing is not None:
+        is_ground[standing.polygon] = False
+    return is_ground[copies.original] if copies else is_ground
 
 
 def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:

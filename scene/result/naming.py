@@ -10,6 +10,8 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ...core.mesh.grounds import are_ground
+from ...core.mesh.polygons import PolygonMesh
 from ...core.uses.naming.method import Suggestion, suggestions
 from ...core.uses.naming.shapes import Shapes
 from .. import bridge, store
@@ -19,7 +21,8 @@ from ..store import Stored
 
 _WORDS = {word: word for word in (
     n_("body"), n_("head"), n_("neck"), n_("arm"), n_("leg"), n_("tail"), n_("ear"), n_("horn"), n_("handle"),
-    n_("limb"), n_("tip"), n_("piece"), n_("front"), n_("back"), n_("top"), n_("bottom"), n_("left"), n_("right"))}
+    n_("ground"), n_("limb"), n_("tip"), n_("piece"), n_("front"), n_("back"), n_("top"), n_("bottom"), n_("left"),
+    n_("right"))}
 _ENDINGS = {1: ".L", 0: "", -1: ".R"}
 
 
@@ -30,6 +33,7 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
     """
     numbered, shape = stored.shown_parts(), bridge.read_shape(obj)
     world, mesh = np.array(placing.world_matrix(obj), np.float64), obj.data
+    is_ground = are_ground(PolygonMesh.of(shape.vertices, shape.triangles, shape.polygon))
     whole = skeleton.whole_model(obj, shape, numbered)
     if whole is None:
         points = placing.transformed(mesh_arrays.shown_points(obj), world)
@@ -37,9 +41,9 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
         turn = world[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
     else:  # it has the names of what is seen
         turn = world[:3, :3] @ bridge.unstretch(shape.stretch)
-        parts, area = whole.parts, np.tile(shape.face_area, 2)
+        parts, area, is_ground = whole.parts, np.tile(shape.face_area, 2), np.tile(is_ground, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ turn.T + world[:3, 3])
-    shapes = Shapes.of(parts, table.face_means(table.vertices), area, table.vertices[table.corner_vertex],
+    shapes = Shapes.of(parts, is_ground, table.face_means(table.vertices), area, table.vertices[table.corner_vertex],
                        table.corner_face, turn)
     names = [_spoken(suggestion) for suggestion in suggestions(shapes)]
     return dict(zip(numbered.numbers.tolist(), names[: numbered.parts.count], strict=True))

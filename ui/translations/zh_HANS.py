@@ -162,6 +162,7 @@ TEXTS = {
     "ear": "耳",
     "horn": "角",
     "handle": "柄",
+    "ground": "地面",
     "limb": "肢",
     "tip": "尖",
     "piece": "块",

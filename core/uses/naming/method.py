@@ -43,7 +43,8 @@ class Suggestion:
     Attributes
     ----------
     word : str
-        What it is: body, head, neck, arm, leg, tail, ear, horn or handle; or its kind alone, limb, tip or piece.
+        What it is: body, head, neck, arm, leg, tail, ear, horn or handle, or the ground on which all of it stands; or
+        its kind alone, limb, tip or piece.
     place : str
         Where it is, if that is clear and tells it from others: front, back, top, bottom, left, right, or "".
     side : int
@@ -90,7 +91,7 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
 def _words(shapes: Shapes) -> dict[int, str]:
     """The words for those parts that have one, by their number."""
     words = dict.fromkeys(_handles(shapes), "handle")
-    creature = [] if words or shapes.parts.count < 2 else _creature(shapes)
+    creature = [] if words or len(shapes.ground) - shapes.ground.sum() < 2 else _creature(shapes)
     for word, found in creature:
         for part in found:
             words.setdefault(part, word)
@@ -104,6 +105,8 @@ def _suggestion(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggest
     """The name of a part: of its word, or without one of its kind. has_head : whether a part is called head."""
     if part == shapes.body and not shapes.paired[part]:
         return Suggestion(word or "body")
+    if shapes.ground[part]:
+        return Suggestion("ground")
     offset = shapes.offset[part].copy()
     if word in {"leg", "arm", "ear", "horn"}:
         return _limb(shapes, part, word, has_head)
@@ -169,7 +172,7 @@ def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
 
 def _stands(shapes: Shapes) -> bool:
     """Whether a model stands as a creature does: on both sides of a body that is above the ground."""
-    aside, above = shapes.aside[shapes.feet], shapes.low[shapes.body, 2] - shapes.low[:, 2].min()
+    aside, above = shapes.aside[shapes.feet], shapes.low[shapes.body, 2] - shapes.bottom
     return bool(len(aside) and aside.min() < 0.0 < aside.max() and above >= FOOT * shapes.size[2])
 
 
@@ -193,7 +196,7 @@ def _ears(shapes: Shapes, others: list[int], head: int) -> list[int]:
     """Small parts beside the middle of the head that touch it, and otherwise each other alone, and reach as high."""
     brow = shapes.high[head, 2] - _BROW * (shapes.high - shapes.low)[head, 2]
     small = {part for part in others if head in shapes.neighbors[part]
-             and shapes.parts.share[part] < _EAR * shapes.parts.share[head]}
+             and shapes.share[part] < _EAR * shapes.share[head]}
     return [part for part in others if part in small and shapes.neighbors[part] <= {head, *small}
             and shapes.high[part, 2] > brow and (shapes.paired[part] or abs(shapes.aside[part]) > _OFF)]
 
@@ -239,7 +242,7 @@ def _head(shapes: Shapes, midst: list[int]) -> int | None:
 
     Of what hangs on each other there it is the outermost one, unless that is small: then it is a muzzle or a hat.
     """
-    share, lowest = shapes.parts.share, shapes.middle[shapes.body, 2] + RISE * shapes.size[2]
+    share, lowest = shapes.share, shapes.middle[shapes.body, 2] + RISE * shapes.size[2]
     high = {part for part in midst if share[part] > _SPECK and shapes.high[part, 2] > lowest}
     ends = [part for part in midst if part in high and not any(
         shapes.steps[other] > shapes.steps[part] and share[other] > _MUZZLE * share[part]

@@ -61,7 +61,7 @@ class Shapes:
     others: tuple[Shapes, ...] = ()
 
     @classmethod
-    def of(cls, parts: Parts, center: np.ndarray, area: np.ndarray, points: np.ndarray,
+    def of(cls, parts: Parts, is_ground: np.ndarray, center: np.ndarray, area: np.ndarray, points: np.ndarray,
            point_face: np.ndarray, turn: np.ndarray) -> Shapes:
         """Measure parts.
 
@@ -69,6 +69,9 @@ class Shapes:
         ----------
         parts : Parts
             Of p faces.
+        is_ground : (p,) bool
+            Which faces are those of a floor or the like. A part of these alone is no part of what stands there, unless
+            all are.
         center, area : (p, 3) and (p,) float64
             Of the faces, in the world.
         points, point_face : (c, 3) float64 and (c,) int64
@@ -85,13 +88,16 @@ class Shapes:
         normal = np.zeros(3) if plane is None else turn @ plane.normal
         known = np.linalg.norm(normal[:2]) > _LEVEL * np.linalg.norm(normal)
         weight = area + 1e-12 * area.sum() + 1e-300
-        faces = Touching(parts), center, weight, points, point_face
+        ground = np.bincount(parts.labels, ~is_ground, parts.count) == 0
+        ground &= not ground.all()
+        faces = Touching(parts, ground), center, weight, points, point_face
         found = cls._turned(*faces, _onto_axis(normal[:2]) if known else np.eye(3))
         found = replace(found, across=int(abs(normal[1]) > abs(normal[0])))
         if normal.any():  # if it is not level, a creature lies on its side
             return found
         others = [replace(found, across=1 - found.across)]
-        if len(longest := _longest(center, weight)):
+        stands = ~ground[parts.labels]
+        if len(longest := _longest(center[stands], weight[stands])):
             along = cls._turned(*faces, _onto_axis(longest))
             others += [replace(found, low=along.low, high=along.high, middle=along.middle, across=axis)
                        for axis in (0, 1)]
@@ -130,10 +136,25 @@ class Shapes:
         """(k,) int64, over how many cuts each part hangs on the body."""
         return self.touching.steps
 
+    @property
+    def ground(self) -> np.ndarray:
+        """(k,) bool, parts that are grounds; of these no more is said."""
+        return self.touching.ground
+
+    @cached_property
+    def share(self) -> np.ndarray:
+        """(k,) float64, area of each part as a share of that of the model."""
+        return self.parts.share / self.parts.share[~self.ground].sum()
+
+    @cached_property
+    def bottom(self) -> float:
+        """The height of the model's lowest point."""
+        return float(self.low[~self.ground, 2].min())
+
     @cached_property
     def size(self) -> np.ndarray:
-        """(3,) float64, extents of the whole model."""
-        return np.maximum(self.high.max(axis=0) - self.low.min(axis=0), 1e-300)
+        """(3,) float64, extents of the whole model, which grounds are no part of."""
+        return np.maximum(self.high[~self.ground].max(axis=0) - self.low[~self.ground].min(axis=0), 1e-300)
 
     @cached_property
     def elongation(self) -> np.ndarray:
@@ -168,7 +189,7 @@ class Shapes:
         lies = long > np.maximum(_LYING * extent[:, 2], _MIDWAY * aside * self.size[self.across])
         lies &= long > _SHOE * self.size.max()
         inside = (aside < _APART) & (not self.upright)
-        grounded = self.low[:, 2] - self.low[:, 2].min() < FOOT * self.size[2]
+        grounded = self.low[:, 2] - self.bottom < FOOT * self.size[2]
         stands = grounded & (down | (self.elongation > LONG)) & ~lies & ~inside
         return [part for part in self.hanging if stands[part]]
 
@@ -195,7 +216,8 @@ class Shapes:
         along = self.offset[:, 1 - self.across]
         there = (np.abs(self.aside) < MIDST) & (np.abs(along) > AHEAD) & (self.offset[:, 2] > 0.0)
         there[[self.body, *self.legs, *self.trunk]] = False
-        front, back = (float(self.parts.share[there & (sign * along > 0)].sum()) for sign in (1, -1))
+        there &= ~self.ground
+        front, back = (float(self.share[there & (sign * along > 0)].sum()) for sign in (1, -1))
         return 0 if max(front, back) < _CLEAR * min(front, back) or front == back else 1 if front > back else -1
 
     def between(self, ends: list[int]) -> list[int]:

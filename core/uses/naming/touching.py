@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which parts touch, which of them is the body, and what hangs on it."""
+"""Which parts touch, which of them is the body, and what hangs on it; grounds are no part of that."""
 
 from __future__ import annotations
 
@@ -23,19 +23,23 @@ class Touching:
     ----------
     parts : Parts
         With k parts.
+    ground : (k,) bool
+        The parts that are grounds, such as a floor: as if they touched nothing. Not all of them.
     """
 
     parts: Parts
+    ground: np.ndarray
 
     @cached_property
     def neighbors(self) -> list[set[int]]:
         """Parts that each part touches."""
-        return [set(others) for others in partners_of(self.parts.cuts, self.parts.count)]
+        cuts = self.parts.cuts[~self.ground[self.parts.cuts].any(axis=1)]
+        return [set(others) for others in partners_of(cuts, self.parts.count)]
 
     @cached_property
     def body(self) -> int:
         """The part that most area hangs on: the one that leaves the smallest remainders when it is taken away."""
-        largest = self._remainders()
+        largest = np.where(self.ground, np.inf, self._remainders())
         # Those were summed in another order. Of parts that are equal but for rounding, the sums below tell.
         near = np.flatnonzero(largest <= largest.min() + 1e-9 * self.parts.share.sum())
         return min(near.tolist(), key=self._remainder)

@@ -11,6 +11,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from core import decompose
+from core.mesh.grounds import are_ground
+from core.mesh.polygons import PolygonMesh
 from core.uses.naming.method import Suggestion, suggestions
 from core.uses.naming.shapes import Shapes
 from core.uses.naming.touching import Touching
@@ -24,8 +26,8 @@ def named(vertices, faces, result=None, turn=None, **level):
     turn = np.eye(3) if turn is None else turn
     corner = (vertices @ turn.T)[faces]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1) / 2
-    face = np.repeat(np.arange(len(faces)), 3)
-    return suggestions(Shapes.of(parts, corner.mean(axis=1), area, corner.reshape(-1, 3), face, turn))
+    face, is_ground = np.repeat(np.arange(len(faces)), 3), are_ground(PolygonMesh.of(vertices, faces))
+    return suggestions(Shapes.of(parts, is_ground, corner.mean(axis=1), area, corner.reshape(-1, 3), face, turn))
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +54,24 @@ def test_a_creature(cow):
     assert (found["body"], found["head"], found["leg"]) == (1, 1, 4)
     legs = {(name.place, name.side) for name in names if name.word == "leg"}
     assert legs == {(place, side) for place in ("front", "back") for side in (1, -1)}
+
+
+@pytest.mark.parametrize("width", [5, 50])
+def test_a_creature_on_a_floor_has_its_names(cow, width):
+    """The floor was the body then, and nothing else had a word."""
+    vertices, faces, _ = cow
+    square = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * width / 2
+    floor = shapes.Shape(np.column_stack([square, np.full(4, vertices[:, 2].min())]), np.array([(0, 1, 2), (0, 2, 3)]))
+    shape = shapes.together(shapes.Shape(vertices, faces), floor)
+    twice = np.concatenate([shape.faces, shape.faces[-2:, ::-1]])
+    for with_floor in (shape.faces, twice):
+        found = decompose(shape.vertices, with_floor)
+        names = named(shape.vertices, with_floor, found)
+        alone = [name for name in named(*cow) if name.word != "piece"]
+        assert Counter(name for name in names if name.word != "piece") == Counter([*alone, Suggestion("ground")])
+        assert names[found.parts().labels[-1]] == Suggestion("ground")
+        assert Counter(named(shape.vertices, with_floor, found, n_parts=2)) == Counter(
+            [Suggestion("ground"), Suggestion("body")])
 
 
 def test_of_two_pairs_on_a_head_the_inner_higher_one_are_horns(cow):
@@ -247,5 +267,5 @@ def test_the_body_is_what_leaves_the_smallest_remainders(seed):
         beside = np.unique(cuts[(cuts == part).any(axis=1)])
         total = np.bincount(labels, share)
         remainders.append(max((total[labels[other]] for other in beside.tolist() if other != part), default=0.0))
-    body = Touching(parts).body
+    body = Touching(parts, np.zeros(parts.count, bool)).body
     assert remainders[body] == pytest.approx(min(remainders))
