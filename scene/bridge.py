@@ -15,7 +15,8 @@ import numpy as np
 from ..core.arrays.vectors import cross, lengths
 from ..core.mesh.corners import CornerTable
 from ..core.mesh.face_graph import FaceGraph
-from ..core.mesh.polygons import MIN_FACES
+from ..core.mesh.grounds import are_ground
+from ..core.mesh.polygons import MIN_FACES, PolygonMesh
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
 from . import targets
@@ -71,6 +72,11 @@ class Shape:
     def arrays(self) -> tuple[np.ndarray, ...]:
         """As core.handover takes a shape."""
         return self.vertices, self.triangles, self.polygon, self.mirror, self.hints
+
+    @property
+    def is_ground(self) -> np.ndarray:
+        """(p,) bool, which faces are those of a floor or the like, see core.mesh.grounds."""
+        return are_ground(PolygonMesh.of(self.vertices, self.triangles, self.polygon))
 
     @property
     def face_area(self) -> np.ndarray:

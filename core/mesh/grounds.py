@@ -102,6 +102,25 @@ def are_ground(given: PolygonMesh) -> np.ndarray:
     return is_ground[copies.original] if copies else is_ground
 
 
+def grounds_among(labels: np.ndarray, is_ground: np.ndarray) -> np.ndarray:
+    """Which of some parts are grounds.
+
+    Parameters
+    ----------
+    labels : (p,) int64
+        Part of each face, 0..count-1, all in use.
+    is_ground : (p,) bool
+        Whether each is ground, see ``are_ground``.
+
+    Returns
+    -------
+    ground : (count,) bool
+        Those of such faces alone; none of them if all are.
+    """
+    ground = np.bincount(labels, ~is_ground) == 0
+    return ground & (not ground.all())
+
+
 def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:
     """A piece on which all others stand, of those that do so far; piece : (m,) int64. area, stands : (q,)."""
     least = SHARE * area[stands].sum()

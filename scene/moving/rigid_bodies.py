@@ -11,7 +11,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from .. import transaction
+from ...core.mesh.grounds import grounds_among
+from .. import bridge, transaction
 from ..ours import made_objects
 from ..pieces import mesh_replacement, origins
 from ..reading import mesh_arrays, placing
@@ -41,7 +42,8 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
          pieces: dict[int, list[bpy.types.Object]], kind: str) -> RigidBodies:
     """Make rigid bodies of pieces, and joints at the cuts in place of earlier ones; Object Mode.
 
-    A piece that is a rigid body already stays as it is, and so does the rigid body world if there is one.
+    A piece that is a rigid body already stays as it is, and so does the rigid body world if there is one. A floor or
+    the like is a passive body, to which nothing is joined.
 
     Parameters
     ----------
@@ -62,16 +64,19 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     from ...core.uses.moving.hulls import part_hulls
 
     collection = origins.make_collection(context, obj)
-    numbered = stored.shown_parts()
+    numbered, shape = stored.shown_parts(), bridge.read_shape(obj)
+    labels = numbered.parts.labels
     points = placing.transformed(mesh_arrays.shown_points(obj), placing.world_matrix(obj))
     table = mesh_arrays.joined_table(obj.data, points)
-    hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
-    found = body_joints(table, numbered.parts.labels)
+    ground = grounds_among(labels, shape.is_ground)
+    hulls = [hull for (hull,) in part_hulls(table, labels)]
+    found, overlaps = body_joints(table, labels, ground), overlapping(hulls)
     bodies = [pieces.get(number, []) for number in numbered.numbers.tolist()]
-    site = _Site(_world(context), collection, 0.05 * float(np.linalg.norm(np.ptp(points, axis=0))))
-    _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
+    site = _Site(_world(context), collection, 0.05 * table.within(~ground[labels]).diagonal)
+    _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]), ground)
     wanted = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
-    holding_nothing = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    holding_nothing = _joints_that_hold_nothing(site, bodies, overlaps[~ground[overlaps].any(axis=1)],
+                                                found.pairs)
     earlier = remove_joints(obj, coming={_stands_for(joint) for joint in (*wanted, *holding_nothing)})
     joints, apart = ([_joint(site, joint) for joint in some] for some in (wanted, holding_nothing))
     for joint in (*joints, *apart):
@@ -108,13 +113,13 @@ class _Wanted(NamedTuple):
         return part_names.fitted(" - ".join(end.name for end in self.ends))
 
 
-def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray) -> None:
-    """Make bodies of the pieces that are none. volume : (count,) float64, of the hull of each part."""
-    masses = (volume / max(volume.mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
-    for some, mass in zip(bodies, masses, strict=True):
+def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray, ground: np.ndarray) -> None:
+    """Make bodies of the pieces that are none. volume, ground : (count,), of the hull of each part; which are."""
+    masses = (volume / max(volume[~ground].mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
+    for some, mass, is_ground in zip(bodies, masses, ground.tolist(), strict=True):
         for piece in [piece for piece in some if piece.rigid_body is None]:
             _stand_upright(piece)
-            _add_body(site.physics, piece, mass / len(some))
+            _add_body(site.physics, piece, mass / len(some), is_ground)
 
 
 def _joints_at_cuts(site: _Site, bodies: _Bodies, found: BodyJoints, kind: str) -> list[_Wanted]:
@@ -179,11 +184,13 @@ def _stand_upright(piece: bpy.types.Object) -> None:
     piece.matrix_basis = upright
 
 
-def _add_body(physics: bpy.types.RigidBodyWorld, piece: bpy.types.Object, mass: float) -> None:
+def _add_body(physics: bpy.types.RigidBodyWorld, piece: bpy.types.Object, mass: float, is_ground: bool) -> None:
     transaction.on_failure(_remove_body, physics.collection, piece)
     physics.collection.objects.link(piece)  # which makes it an active body
     body = piece.rigid_body
     body.type, body.collision_shape, body.mass = "ACTIVE", "CONVEX_HULL", mass
+    if is_ground:  # what stands in a room is within its hull
+        body.type, body.collision_shape = "PASSIVE", "MESH"
 
 
 def _remove_body(bodies: bpy.types.Collection, piece: bpy.types.Object) -> None:

@@ -12,6 +12,7 @@ from mathutils import Matrix
 
 from ...core.arrays.int64 import arange
 from ...core.mesh.corners import CornerTable
+from ...core.mesh.grounds import grounds_among
 from ...core.result.numbering import NumberedParts
 from ...core.result.whole import Whole, whole_of
 from .. import bridge, store
@@ -111,18 +112,19 @@ def _surface(obj: bpy.types.Object, shape: bridge.Shape, parts: Parts, whole: Wh
     from ...core.uses.moving.part_images import PartImages
 
     graph, plane, area = parts.decomposition.graph, parts.decomposition.plane, shape.face_area
+    ground = grounds_among(parts.labels, shape.is_ground if whole is None else np.tile(shape.is_ground, 2))
     back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(obj.data))  # from the coordinates of the result
     if whole is None:
         table = mesh_arrays.corner_table(obj.data, placing.transformed(mesh_arrays.shown_points(obj), turn))
         images = PartImages.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
-                                     parts.labels, area)
+                                     parts.labels, area, ground)
     else:
         rigid, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), np.tile(area, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
         images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
     line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
     return BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
-                       np.concatenate([parts.point_part, parts.node_part]), images)
+                       np.concatenate([parts.point_part, parts.node_part]), images, ground)
 
 
 def _names(mesh: bpy.types.Mesh, numbered: NumberedParts, whole: Whole | None, bone_part: np.ndarray) -> list[str]:

@@ -10,8 +10,6 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ...core.mesh.grounds import are_ground
-from ...core.mesh.polygons import PolygonMesh
 from ...core.uses.naming.method import Suggestion, suggestions
 from ...core.uses.naming.shapes import Shapes
 from .. import bridge, store
@@ -33,15 +31,15 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
     """
     numbered, shape = stored.shown_parts(), bridge.read_shape(obj)
     world, mesh = np.array(placing.world_matrix(obj), np.float64), obj.data
-    is_ground = are_ground(PolygonMesh.of(shape.vertices, shape.triangles, shape.polygon))
     whole = skeleton.whole_model(obj, shape, numbered)
     if whole is None:
         points = placing.transformed(mesh_arrays.shown_points(obj), world)
         parts, table, area = numbered.parts, mesh_arrays.corner_table(mesh, points), shape.face_area
+        is_ground = shape.is_ground
         turn = world[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
     else:  # it has the names of what is seen
         turn = world[:3, :3] @ bridge.unstretch(shape.stretch)
-        parts, area, is_ground = whole.parts, np.tile(shape.face_area, 2), np.tile(is_ground, 2)
+        parts, area, is_ground = whole.parts, np.tile(shape.face_area, 2), np.tile(shape.is_ground, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ turn.T + world[:3, 3])
     shapes = Shapes.of(parts, is_ground, table.face_means(table.vertices), area, table.vertices[table.corner_vertex],
                        table.corner_face, turn)

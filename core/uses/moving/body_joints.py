@@ -44,7 +44,7 @@ class BodyJoints:
     hinge: np.ndarray
 
 
-def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
+def body_joints(table: CornerTable, labels: np.ndarray, ground: np.ndarray | None = None) -> BodyJoints:
     """Find a joint for each cut; parts that meet in several places have several.
 
     Where cuts leave groups of parts, such as the loose pieces of a model, a joint holds two groups at the place where
@@ -56,13 +56,16 @@ def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
         p faces, z upwards.
     labels : (p,) int64
         Part of each face, 0..count-1.
+    ground : (count,) bool, optional
+        The parts that are grounds, which nothing is joined to; not all of them.
 
     Returns
     -------
     joints : BodyJoints
     """
     pairs, joint, middle, weight = _cuts(table, labels)
-    contacts = touching_groups(table, labels, pairs)
+    ground = np.zeros(int(labels.max()) + 1, bool) if ground is None else ground
+    contacts = touching_groups(table, labels, pairs, ground)
     pairs = np.concatenate([pairs, *([pair] for pair, _ in contacts)])
     joint = np.concatenate([joint, *(full(len(some), len(pairs) - len(contacts) + k)
                                      for k, (_, some) in enumerate(contacts))])

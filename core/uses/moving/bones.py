@@ -15,8 +15,8 @@ from .bone_trees import even_tree, following, part_tree
 from .groups import touching_groups
 from .part_images import PartImages, face_weights, middles
 
-# Least length of a bone, as a share of the diagonal of the faces' bounding box. A shorter bone is replaced by one of
-# this length that points upwards.
+# Least length of a bone, as a share of the diagonal of the box of all that is no ground. A shorter bone is replaced by
+# one of this length that points upwards.
 _SHORTEST = 0.01
 # A bone ends toward those that hang on it by a contact, as a hand on the sleeve, if they and all that follows have this
 # share of its part's area: a head's bone does not end at its eyes.
@@ -67,6 +67,8 @@ class BoneSurface:
     images : PartImages, optional
         Of the parts, for a mesh that is its own mirror image: so are the bones and their tree then, but for those of
         parts without an image.
+    ground : (count,) bool, optional
+        The parts that are grounds, such as a floor, not all of them: each is a root without children.
     """
 
     table: CornerTable
@@ -76,6 +78,22 @@ class BoneSurface:
     line: np.ndarray
     line_part: np.ndarray
     images: PartImages | None = None
+    ground: np.ndarray | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of parts."""
+        return int(self.labels.max()) + 1
+
+    @property
+    def grounds(self) -> np.ndarray:
+        """(count,) bool, the parts that are grounds."""
+        return np.zeros(self.count, bool) if self.ground is None else self.ground
+
+    @property
+    def diagonal(self) -> float:
+        """Diagonal of the bounding box of all that is no ground, in units of the vertices."""
+        return self.table.within(~self.grounds[self.labels]).diagonal
 
     def joined(self) -> BoneSurface:
         """The surface on vertices of which no two, as files split them, are at one place."""
@@ -88,11 +106,11 @@ def part_bones(surface: BoneSurface) -> Bones:
     surface : BoneSurface. Returns Bones, one for each of its parts.
     """
     surface = surface.joined()
-    table, labels, images, count = surface.table, surface.labels, surface.images, int(surface.labels.max()) + 1
+    table, labels, images, count = surface.table, surface.labels, surface.images, surface.count
     weight = face_weights(surface.area)
     middle, _ = middles(table, labels, weight)
     size = np.bincount(labels, weight, count)
-    joints = _Joints.between(table, labels, images)
+    joints = _Joints.between(surface)
     of_part = np.bincount(labels, weight * table.face_means(surface.height), count) / size
     known = joints.pairs, joints.length, of_part
     parent, order = part_tree(count, *known) if images is None else even_tree(images, *known)
@@ -101,7 +119,7 @@ def part_bones(surface: BoneSurface) -> Bones:
         head[part] = joints.place(part, int(parent[part]), beyond[part], middle[part])
     if images is not None:
         head = images.even(head)
-    shortest = max(_SHORTEST * table.diagonal, np.finfo(float).tiny)
+    shortest = max(_SHORTEST * surface.diagonal, np.finfo(float).tiny)
     shown = joints.by_cut(parent) | (beyond @ size >= _SHOWN * size[parent])
     tail = _tails(surface, head, middle, parent, shown, shortest)
     only = (parent >= 0) & (np.bincount(parent[parent >= 0], minlength=count)[parent] == 1)
@@ -142,13 +160,14 @@ class _Joints:
     contacts: dict[tuple[int, int], np.ndarray]
 
     @classmethod
-    def between(cls, table: CornerTable, labels: np.ndarray, images: PartImages | None) -> _Joints:
+    def between(cls, surface: BoneSurface) -> _Joints:
         """Cuts, and contacts between what no cuts connect, with their images at a plane."""
+        table, labels, images = surface.table, surface.labels, surface.images
         low, high = table.edge_labels(labels)
         cut = np.flatnonzero(low < high)
         pairs, which = distinct_pairs(low[cut], high[cut])
         length = np.bincount(which, np.maximum(table.edge_length(cut), 1e-300), len(pairs))
-        contacts = dict(touching_groups(table, labels, pairs))
+        contacts = dict(touching_groups(table, labels, pairs, surface.grounds))
         if images is not None and images.mirror is not None:
             for pair, places in list(contacts.items()):
                 low_one, high_one = np.sort(images.twin[list(pair)]).tolist()

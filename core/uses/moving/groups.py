@@ -17,9 +17,11 @@ _NEAR, _SLACK = 0.03, 0.01
 _MOST = 2_000
 
 
-def touching_groups(table: CornerTable, labels: np.ndarray,
-                    pairs: np.ndarray) -> list[tuple[tuple[int, int], np.ndarray]]:
+def touching_groups(table: CornerTable, labels: np.ndarray, pairs: np.ndarray,
+                    ground: np.ndarray) -> list[tuple[tuple[int, int], np.ndarray]]:
     """Connect groups of parts at the places where they touch, the nearest ones first, until none touch.
+
+    What stands on a ground does not hold together with it, nor by way of it.
 
     Parameters
     ----------
@@ -29,6 +31,8 @@ def touching_groups(table: CornerTable, labels: np.ndarray,
         Part of each face, 0..count-1.
     pairs : (k, 2) int64
         Parts that cuts connect.
+    ground : (count,) bool
+        The parts that are grounds, not all of them.
 
     Returns
     -------
@@ -42,17 +46,19 @@ def touching_groups(table: CornerTable, labels: np.ndarray,
         group.merge(a, b)
     if group.n_subsets == 1:
         return []
-    near, slack = (share * table.diagonal for share in (_NEAR, _SLACK))
-    points = [_points(table, labels == part, near) for part in range(count)]
+    size, part = table.within(~ground[labels]).diagonal, np.flatnonzero(~ground).tolist()
+    near, slack = _NEAR * size, _SLACK * size
+    points = [_points(table, labels == one, near) for one in part]
     trees = [cKDTree(some) for some in points]
     found = []
     for a, b in beside(points, near).tolist():
-        if group.connected(a, b):
+        if group.connected(part[a], part[b]):
             continue
         distance, place = trees[b].query(points[a], distance_upper_bound=near + slack)
         if distance.min() <= near:
             close = distance <= distance.min() + slack
-            found.append((distance.min(), (a, b), 0.5 * (points[a][close] + points[b][place[close]])))
+            places = 0.5 * (points[a][close] + points[b][place[close]])
+            found.append((distance.min(), (part[a], part[b]), places))
     return [(pair, places) for _, pair, places in sorted(found, key=lambda contact: contact[:2]) if group.merge(*pair)]
 
 

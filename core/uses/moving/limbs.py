@@ -38,12 +38,13 @@ def limb_bones(surface: BoneSurface) -> tuple[Bones, np.ndarray, np.ndarray]:
     part_bone : (count,) int64
         The bone that moves each part.
     """
-    surface, owner = surface.joined(), arange(int(surface.labels.max()) + 1)
+    surface, owner = surface.joined(), arange(surface.count)
     while True:
         bone_part, part_bone = np.unique(owner, return_inverse=True)
         images = None if surface.images is None else surface.images.of_bones(bone_part, part_bone)
         in_limbs = replace(surface, labels=part_bone[surface.labels], images=images,
-                           line_part=np.where(surface.line_part < 0, -1, part_bone[surface.line_part]))
+                           line_part=np.where(surface.line_part < 0, -1, part_bone[surface.line_part]),
+                           ground=surface.grounds[bone_part])
         bones = part_bones(in_limbs)
         hangs = _hanging(bones, _necks(in_limbs, bones), images)
         if not hangs.any():

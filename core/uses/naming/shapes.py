@@ -10,6 +10,7 @@ import numpy as np
 
 from ...arrays.indexing import bounds_of_each
 from ...arrays.vectors import middles_of_each, second_moments_of_each
+from ...mesh.grounds import grounds_among
 from ...result.parts import Parts
 from .touching import LOOSE, Touching
 
@@ -88,8 +89,7 @@ class Shapes:
         normal = np.zeros(3) if plane is None else turn @ plane.normal
         known = np.linalg.norm(normal[:2]) > _LEVEL * np.linalg.norm(normal)
         weight = area + 1e-12 * area.sum() + 1e-300
-        ground = np.bincount(parts.labels, ~is_ground, parts.count) == 0
-        ground &= not ground.all()
+        ground = grounds_among(parts.labels, is_ground)
         faces = Touching(parts, ground), center, weight, points, point_face
         found = cls._turned(*faces, _onto_axis(normal[:2]) if known else np.eye(3))
         found = replace(found, across=int(abs(normal[1]) > abs(normal[0])))

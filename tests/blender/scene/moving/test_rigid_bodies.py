@@ -38,6 +38,23 @@ def matrices(objects):
     return [np.array(obj.matrix_world) for obj in objects]
 
 
+def test_what_stands_on_a_floor_of_the_same_mesh_stays_there(make, tree):
+    """The floor fell with what stood on it, joined to it."""
+    low = tree[0][:, 2].min()
+    corners = [(x, y, low) for x, y in ((-20, -20), (20, -20), (20, 20), (-20, 20))]
+    obj, n = make((np.concatenate([tree[0], corners]), [*map(list, tree[1]), [len(tree[0]) + i for i in range(4)]])), 5
+    assert len(separated(obj)) == n + 1
+    bpy.ops.reeb_parts.rigid_bodies(joints="FIXED")
+    (ground,) = [o for o in bpy.data.objects if o.rigid_body is not None and o.rigid_body.type == "PASSIVE"]
+    assert [len(ground.data.polygons), len(bodies())] == [1, n]
+    held = [joint.rigid_body_constraint for joint in bpy.data.objects if joint.rigid_body_constraint is not None]
+    assert ground not in [end for joint in held for end in (joint.object1, joint.object2)]
+    for frame in range(1, 31):
+        bpy.context.scene.frame_set(frame)
+    points = np.array([piece.matrix_world @ v.co for piece in bodies() for v in piece.data.vertices])
+    assert points[:, 2].min() > low - 0.2
+
+
 @pytest.mark.parametrize("kind", ["HINGE", "POINT", "FIXED"])
 def test_pieces_that_fall_stay_together_at_the_cuts(obj, kind):
     pieces = separated(obj)

@@ -88,6 +88,12 @@ def test_parts_that_touch_without_a_cut_are_held_where_they_touch():
     assert joints.axis[0] == pytest.approx([1, 0, 0])
 
 
+def test_nothing_is_joined_to_a_ground():
+    table = three_boxes(gap=0.05)
+    labels = np.repeat([0, 1, 2], table.n_faces // 3)
+    assert len(body_joints(table, labels, np.array([True, False, False])).pairs) == 0
+
+
 def test_no_joint_where_nothing_touches():
     table = three_boxes(gap=2.0)
     assert len(body_joints(table, np.repeat([0, 1, 2], table.n_faces // 3)).pairs) == 0

@@ -179,15 +179,16 @@ def test_a_bone_without_length_stays_in_the_plane(normal):
     assert np.abs(images.mirror.heights(np.concatenate([made.head, made.tail]))).max() < 1e-12
 
 
-def boxes(*places, twin=None):
+def boxes(*places, twin=None, ground=None, limbs=False):
     """Bones of boxes, each a part of its own: (middle, size) of each."""
     table = CornerTable.of(*shapes.together(*(box_about(*place) for place in places)))
     labels = np.repeat(np.arange(len(places)), 12)
     images = None if twin is None else PartImages(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
     part = np.zeros(len(table.vertices), int)
     part[table.corner_vertex] = labels[table.corner_face]
-    return part_bones(BoneSurface(table, labels, np.linalg.norm(table.face_vectors(), axis=1), part.astype(float),
-                                  np.zeros((0, 3)), np.zeros(0, int), images))
+    return (limb_bones if limbs else part_bones)(BoneSurface(
+        table, labels, np.linalg.norm(table.face_vectors(), axis=1), part.astype(float), np.zeros((0, 3)),
+        np.zeros(0, int), images, ground))
 
 
 def box_about(middle, size=(1, 1, 1)):
@@ -217,6 +218,20 @@ def test_pieces_of_two_sides_hang_on_their_own_side_whatever_their_order():
     assert made.head[7, 0] < -4.5
 
 
+@pytest.mark.parametrize("wide", [20, 2_000])
+@pytest.mark.parametrize("twin", [None, [0, 2, 1, 3, -1]])
+def test_what_stands_on_a_floor_does_not_hang_on_it(wide, twin):
+    """Trunk, two legs, a stone beside them, which a wide floor makes near to all, and the floor."""
+    places = [((0, 0, 0), (4, 1, 4)), ((1.5, 0, -4), (1, 1, 4)), ((-1.5, 0, -4), (1, 1, 4)), ((0, 5, -5), (1, 1, 2))]
+    floor, ground = ((0, 0, -6.5), (wide, wide, 1)), np.arange(5) == 4
+    alone = boxes(*places, twin=twin and twin[:4])
+    found = boxes(*places, floor, twin=twin, ground=ground)
+    assert found.parent.tolist() == [*alone.parent.tolist(), -1] == [-1, 0, 0, -1, -1]
+    np.testing.assert_allclose(found.head[:4], alone.head)
+    np.testing.assert_allclose(found.tail[:4], alone.tail)
+    assert boxes(*places, floor, twin=twin, ground=ground, limbs=True)[1].tolist() == [0, 1, 2, 3, 4]
+
+
 def test_a_head_does_not_end_at_its_eyes():
     head = ((0, 0, 0), (2, 2, 2))
     alone = boxes(((0, 0, -4), (4, 4, 6)), head)
@@ -230,8 +245,8 @@ def test_a_part_that_was_posed_has_no_image():
         (0, 0, 0), (3, 0, 0), (-3, 0, 0), (5, 0, 0), (-5, 0, 2)))))
     labels, twin = np.repeat(np.arange(5), 12), np.array([0, 2, 1, 4, 3])
     plane = MirrorPlane(np.array([1.0, 0, 0]), 0.0)
-    images = PartImages.of_parts(twin, plane, table, labels, np.ones(60))
+    images = PartImages.of_parts(twin, plane, table, labels, np.ones(60), np.zeros(5, bool))
     assert images.twin.tolist() == [0, 2, 1, -1, -1]
     assert images.first.tolist() == [0, 1, 1, 3, 4]
     beside = np.where(twin == 0, -1, twin)
-    assert PartImages.of_parts(beside, plane, table, labels, np.ones(60)) is None
+    assert PartImages.of_parts(beside, plane, table, labels, np.ones(60), np.zeros(5, bool)) is None
