@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grounds: pieces on which, or before or in which, the rest of a mesh stands, such as a floor, a plinth or a backdrop.
+"""Grounds: pieces on which, or before or in which, the rest of a mesh stands, such as a floor, a plinth or a collider.
 
 A floor has most of the area of a mesh, and beside it whatever stands on it is too small to be cut: a person on a floor
 three times as wide was one part. So a ground is left out before anything is measured, and is a part of its own.
@@ -8,14 +8,19 @@ three times as wide was one part. So a ground is left out before anything is mea
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays.indexing import place_among
-from ..arrays.vectors import inner_products, second_moments, weighted_sum
+from ..arrays.int64 import arange
+from ..arrays.vectors import cross, inner_products, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import TriMesh, vertex_components
+
+if TYPE_CHECKING:
+    from scipy.spatial import ConvexHull
 
 # A ground has at least this share of the area, and the rest at least a millionth.
 SHARE, LEAST = 0.2, 1e-6
@@ -28,6 +33,12 @@ SHEET, SLAB = 0.05, 0.4
 # The rest is so high then, at least, in units of the root of its sides across, multiplied, and no more than a share of
 # its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
 HIGH, BELOW = 0.1, 0.05
+# A ground, too, is a convex shell - its area is that of its hull but for this share - of no more faces than this if the
+# rest is within it but for a share of its diameter, and deep within: by this share of it, in the mean. The marks on a
+# ruler are not. Nor is the inner wall of a box: the rest has less than this share of the volume of its own hull.
+CONVEX, MOST_OF_SHELL, OUTSIDE, DEEP, HOLLOW = 0.02, 2000, 1e-3, 0.01, 0.98
+# The depth is that of so many faces.
+DEPTHS = 2000
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +138,8 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
     for k in np.flatnonzero(stands & (area >= least)).tolist():
         others = stands.copy()
         others[k] = False
-        if area[others].sum() > LEAST * area[k] and _is_ground(mesh, piece == k, others[piece]):
+        if area[others].sum() > LEAST * area[k] and (
+                _is_ground(mesh, piece == k, others[piece]) or _is_shell(mesh, piece == k, others[piece])):
             return k
     return None
 
@@ -148,6 +160,40 @@ def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     its_weight, thickness = np.repeat(mesh.face_area[others], 3), np.abs(own[:, 0]).max()
     beyond = min(its_weight[side * its[:, 0] > thickness].sum() for side in (-1, 1))
     return bool(its_sides[0] >= HIGH * np.sqrt(its_sides[1:].prod()) and beyond <= BELOW * its_weight.sum())
+
+
+def _is_shell(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
+    """Whether some faces are a convex solid deep in which the others are; both : (m,) bool."""
+    if mine.sum() > min(others.sum(), MOST_OF_SHELL):
+        return False
+    corners, theirs = mesh.corners[mine].reshape(-1, 3), mesh.corners[others]
+    diameter = np.linalg.norm(np.ptp(corners, axis=0))
+    outside = OUTSIDE * diameter
+    if (theirs.min(axis=(0, 1)) < corners.min(axis=0) - outside).any() or (
+            theirs.max(axis=(0, 1)) > corners.max(axis=0) + outside).any():
+        return False
+    from scipy.spatial import ConvexHull, QhullError  # imported here for the reason that arrays.components gives
+
+    try:
+        shell, whole = ConvexHull(corners), ConvexHull(theirs.reshape(-1, 3))
+    except QhullError:  # flat
+        return False
+    a, b, c = np.moveaxis(theirs - theirs[0, 0], 1, 0)
+    volume = abs(row_products(cross(a, b), c).sum()) / 6
+    if abs(mesh.face_area[mine].sum() - shell.area) > CONVEX * shell.area or volume >= HOLLOW * whole.volume:
+        return False
+    some = arange(0, len(theirs), max(len(theirs) // DEPTHS, 1))
+    weight = mesh.face_area[others][some]
+    return bool(weight @ _depth(shell, theirs[some].mean(axis=1)) >= DEEP * diameter * weight.sum()
+                and _depth(shell, whole.points[whole.vertices]).min() >= -outside)
+
+
+def _depth(hull: ConvexHull, points: np.ndarray) -> np.ndarray:
+    """How deep points are in a hull, (n,) float64, below 0 outside; points : (n, 3)."""
+    depth = np.full(len(points), np.inf)
+    for a, b, c, d in np.unique(hull.equations, axis=0).tolist():  # one after the other, as there may be thousands
+        np.minimum(depth, -(points[:, 0] * a + points[:, 1] * b + points[:, 2] * c + d), out=depth)
+    return depth
 
 
 def _is_larger(sides: np.ndarray, its_sides: np.ndarray) -> bool:

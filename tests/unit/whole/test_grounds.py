@@ -51,10 +51,18 @@ def backdrop(width):
                                                   np.stack([a, a + 6, a + 1], axis=1)]))
 
 
+def collider():
+    """The smallest box around the tree that lies along the axes."""
+    low, high = tree().vertices.min(axis=0), tree().vertices.max(axis=0)
+    return shapes.moved(shapes.box(high - low), low)
+
+
 @pytest.mark.parametrize("floor", [
     sheet(5), sheet(40), sheet(200), sheet(12, 30), sheet(5, depth=0.6), sheet(15, depth=2), backdrop(15),
-    shapes.icosphere(1, 20), shapes.moved(shapes.box((15, 15, 10)), (-7.5, -7.5, 0))],
-    ids=["near", "wide", "very wide", "of many faces", "plinth", "slab", "backdrop", "dome", "room"])
+    shapes.icosphere(1, 20), shapes.moved(shapes.box((15, 15, 10)), (-7.5, -7.5, 0)), collider(),
+    shapes.icosphere(2, 7.5)],
+    ids=["near", "wide", "very wide", "of many faces", "plinth", "slab", "backdrop", "dome", "room", "box around it",
+         "ball around it"])
 def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
     """On a floor three times as wide a person was one part."""
     alone, n = decompose(*tree()), len(tree().faces)
@@ -139,6 +147,22 @@ def test_what_is_no_ground():
     assert not has_ground(sheet(6, 3), shapes.box((1, 1, 1)), shapes.moved(shapes.box((1, 1, 1)), (0, 0, -1)))
     assert not has_ground(sheet(6, depth=1), box)  # as few faces have both
     assert not has_ground(sheet(1e6), box)
+
+
+def test_what_is_no_shell():
+    """A ruler came apart into its 692 marks."""
+    inside = shapes.moved(tree(), -tree().vertices.mean(axis=0))
+    around = 1.5 * np.abs(inside.vertices).max()
+    ball = shapes.icosphere(2, around)
+    assert has_ground(ball, inside)
+    assert has_ground(shapes.inside_out(ball), inside)
+    assert not has_ground(shapes.Shape(ball.vertices, ball.faces[: len(ball.faces) // 2]), inside)  # open
+    assert not has_ground(ball, shapes.moved(inside, (0.5 * around, 0, 0)))  # looks out of it
+    assert not has_ground(shapes.icosphere(4, around), shapes.subdivide(inside))  # of many faces
+    assert not has_ground(ball, shapes.icosphere(3, 0.9 * around))  # a hollow ball
+    body = shapes.box((30, 3, 1))
+    marks = [shapes.moved(shapes.box((0.05, 1, 0.01)), (k, 0.1, 0.985)) for k in range(1, 30)]
+    assert not has_ground(body, *marks)
     tower = column(12, 0)
     assert not has_ground(shapes.moved(shapes.box((4, 4, 3)), (-1.5, -1.5, -3)), tower)  # no slab, and it is less high
 
