@@ -31,18 +31,6 @@ def test_in_a_circle_every_ball_is_the_circle(radius):
     np.testing.assert_allclose(found, radius, rtol=1e-2)
 
 
-def test_of_points_equally_far_from_the_center_the_one_that_makes_the_smallest_ball_counts():
-    """Around a ball that begins to shrink lie two points: one is held by a ball of radius 1, the other of radius 4.
-
-    Seen from the center at (0, 0, 4), both are 3.5 away: nearer than the radius, one before it and one beside.
-    """
-    beyond = np.array([[0.0, 0.0, 0.5]])  # a ball of radius 0.25
-    beside = np.array([[3.5 * np.sin(1.2), 0.0, 4 - 3.5 * np.cos(1.2)]])
-    for points in (np.concatenate([beside, beyond]), np.concatenate([beyond, beside])):
-        found = ball_radius(cKDTree(points), np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), 4.0)
-        assert found == pytest.approx(0.25)
-
-
 @pytest.mark.parametrize("scale", [0.1, 5.0])
 def test_roughness_does_not_hold_a_ball(scale):
     """A bump beside the point would, at an angle of 19 degrees from the center; the wall across holds it."""
