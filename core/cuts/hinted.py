@@ -16,7 +16,7 @@ from ..arrays.components import components
 from ..arrays.indexing import is_last_of_each, renumbered
 from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways
-from ..arrays.ties import on_grid
+from ..arrays.ties import in_steps
 from ..mesh.face_graph import FaceGraph
 from ..mesh.labels import majority, spread
 from .face_candidates import FaceCandidates
@@ -31,6 +31,7 @@ LEAST_CUT_OUT = 0.002
 # Least salience between cells of different hints: there, that the method saw no cut counts for nothing.
 LEAST_SALIENCE = 0.2
 ROUNDING = 1e-6  # bounds of saliences, whose log-odds are to be finite
+STEP = 2.0**-20  # of the weights of pairs
 NO_AREA = 1e-6  # share of the whole area that is added to the vote of each face, as some have none
 
 
@@ -60,8 +61,9 @@ def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandi
     salience = candidates.hierarchy.salience_between(own[a], own[b])
     other = said[a] != said[b]
     salience = salience.clip(np.where(other, LEAST_SALIENCE, ROUNDING), 1.0 - ROUNDING)
-    score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER_HINT, SAME_HINT)
-    weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
+    # With so few digits sums of scores times weights are exact: of many pairs of one score rounding would choose.
+    score = in_steps(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER_HINT, SAME_HINT)
+    weight = np.maximum(np.rint(np.sqrt(area[pairs].min(axis=1) / area.sum()) / STEP), 1.0) * STEP
     linked = average_linkage(len(area), JudgedPairs(pairs, score, weight, np.ones(len(pairs), bool)))
     hierarchy = Hierarchy.of(len(area), linked.merges, np.minimum(1.0 / (1.0 + np.exp(linked.scores)), LAST))
     return replace(candidates, label=cell, hierarchy=hierarchy)

@@ -145,3 +145,14 @@ def test_pieces_that_share_no_edge_merge_by_their_contacts():
     found = hinted_candidates(candidates, np.array([0, 0, 1, 1, 0, 0]))
     assert same_partition(found.label, np.array([0, 0, 1, 1, 2, 2]))
     assert len(found.hierarchy.merges) == 2
+
+
+def test_of_many_cuts_that_only_hints_know_rounding_does_not_choose_the_first():
+    """At three times the size their saliences differ in the last bit."""
+    ball, rng = shapes.icosphere(2), np.random.default_rng(0)
+    vertices = ball.vertices * (1.0 + 0.3 * rng.random((len(ball.vertices), 1)))
+    hint = rng.integers(0, 3, len(ball.faces))
+    one, other = (decompose(k * vertices, ball.faces, hints=hint) for k in (1.0, 3.0))
+    assert one.n_candidates > 50
+    np.testing.assert_array_equal(one.candidates, other.candidates)
+    np.testing.assert_array_equal(one.hierarchy.merges, other.hierarchy.merges)
