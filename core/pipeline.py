@@ -182,7 +182,8 @@ def _on_bodies(
     for done, component in enumerate(chosen):
         watch.share = begin = MESH_SHARE + done * width
         found = decompose_component(component, parameters, watch, begin, width, model)
-        results.append(join_pieces(found, parameters, join_model))
+        with watch.stage("cuts", begin + width):
+            results.append(join_pieces(found, parameters, join_model))
     return results
 
 
