@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which place of one surface is which place of another: of the same kind of body, in another pose or level of detail.
 
+Grounds, such as a floor, are left out, and correspond to each other.
+
 Both surfaces are represented by samples spread evenly over them, with the geodesic distances between all samples, which
 are nearly the same in every pose. A plan says how much of each sample's area goes to which sample of the other surface;
 it is sought so that distances are kept as well as possible, and so that samples go to such as have the same
@@ -12,18 +14,19 @@ taken whose places lie nearer to each other in space.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays.indexing import inverse, underflow_is_zero
-from ..arrays.int64 import arange
+from ..arrays.int64 import arange, full
 from ..errors import ParameterError
 from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
 from ..mesh.arguments import whole_numbers
 from ..mesh.copies import find_copies
+from ..mesh.grounds import Standing, find_standing, grounds_among
 from ..mesh.labels import majority
 from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
@@ -65,9 +68,12 @@ class Samples:
     position : (k, 3) float64
         From the middle of the surface, in the same unit.
     face_sample : (p,) int64
-        Sample that stands for each face; -1 for a face without area.
+        Sample that stands for each face; -1 for a face without area or of a ground.
     face_area : (p,) float64
-        Share of the area; the sum is 1. Faces that lie on each other with the same corners divide that of one.
+        Share of the area; the sum is 1 but for grounds. Faces that lie on each other with the same corners divide that
+        of one.
+    is_ground : (p,) bool
+        Whether each face is one of a ground.
     """
 
     distances: np.ndarray
@@ -76,6 +82,7 @@ class Samples:
     position: np.ndarray
     face_sample: np.ndarray
     face_area: np.ndarray
+    is_ground: np.ndarray
 
 
 @underflow_is_zero
@@ -106,6 +113,28 @@ def sample_surface(
     given = PolygonMesh.of(vertices, faces, polygon)
     if copies := find_copies(given):
         given = without_copies(given, copies)
+    standing = find_standing(given)
+    samples = _sampled(given if standing is None else standing.without_grounds(given))
+    if standing is not None:
+        samples = _with_grounds(samples, given, standing)
+    if copies:
+        area = (samples.face_area / np.bincount(copies.original))[copies.original]
+        samples = replace(samples, face_sample=samples.face_sample[copies.original], face_area=area,
+                          is_ground=samples.is_ground[copies.original])
+    return samples
+
+
+def _with_grounds(samples: Samples, given: PolygonMesh, standing: Standing) -> Samples:
+    """The samples of what stands on grounds, for the faces of all."""
+    area, sample = np.bincount(given.polygon, given.triangles.face_area), full(given.n_polygons, -1)
+    area, is_ground = area / area[standing.polygon].sum(), np.ones(given.n_polygons, bool)
+    area[standing.polygon], sample[standing.polygon] = samples.face_area, samples.face_sample
+    is_ground[standing.polygon] = False
+    return replace(samples, face_sample=sample, face_area=area, is_ground=is_ground)
+
+
+def _sampled(given: PolygonMesh) -> Samples:
+    """Samples of a mesh without copies of faces and without grounds."""
     given, ordering = sorted_by_place(given)
     working = repair(given)
     body = Component.of(working, arange(working.mesh.n_faces))
@@ -124,15 +153,12 @@ def sample_surface(
     sample = np.where(face_area > 0, sample, -1)
     face = inverse(ordering.polygon)
     sample, face_area = sample[face], (face_area / face_area.sum())[face]
-    if copies:
-        number = np.bincount(copies.original)
-        sample, face_area = sample[copies.original], (face_area / number)[copies.original]
     distances = base.distances[:, base.indices]
     distances = (distances + distances.T) / (2 * unit)
     weight = base.areas / base.areas.sum()
     position = mesh.vertices[base.indices] / unit
     return Samples(distances / max(distances.max(), 1e-300), weight, _profiles(distances, weight),
-                   position - weight @ position, sample, face_area)
+                   position - weight @ position, sample, face_area, np.zeros(len(sample), bool))
 
 
 def _profiles(distances: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -215,9 +241,9 @@ def carried_labels(
     Returns
     -------
     label : (count of target,) int64
-        Part of the source from which most of the area of each part of the target comes.
+        Part of the source from which most of the area of each part of the target comes; of a ground the largest ground.
     share : (count of target,) float64
-        How much of it, 0..1.
+        How much of it, 0..1; 0 where none does.
 
     Raises
     ------
@@ -230,7 +256,13 @@ def carried_labels(
     mixture = (plan / np.maximum(plan.sum(axis=0), 1e-300)).T @ from_source  # what each sample of the target is
     to_target = _of_samples(target, target_labels, len(target.weight)) * target.weight[:, None]
     score = to_target.T @ mixture
-    return score.argmax(axis=1), score.max(axis=1) / np.maximum(score.sum(axis=1), 1e-300)
+    label, share = score.argmax(axis=1), score.max(axis=1) / np.maximum(score.sum(axis=1), 1e-300)
+    grounds = grounds_among(source_labels, source.is_ground)
+    if grounds.any():
+        ground = grounds_among(target_labels, target.is_ground)
+        area = np.bincount(source_labels, source.face_area * source.is_ground)
+        label[ground], share[ground] = np.where(grounds, area, -1.0).argmax(), 1.0
+    return label, share
 
 
 def _checked(samples: Samples, labels: ArrayLike) -> np.ndarray:

@@ -117,7 +117,8 @@ def _carry(names: dict[int, str], source: bpy.types.Object, target: bpy.types.Ob
     found, share = _corresponding(source, target)
     numbers, sure = numbered.numbers.tolist(), share * numbered.parts.share
     # Of several parts that come from one, the one that most of it goes to has the plain name.
-    origin = {numbers[label]: found[label] for label in np.argsort(-sure, kind="stable") if found[label] in names}
+    order = np.argsort(-sure, kind="stable")
+    origin = {numbers[label]: found[label] for label in order if found[label] in names and share[label] > 0}
     mesh = target.data
     # Their former names are free for others.
     reactions.give_names(mesh, {number: part_names.own_name(mesh, number) for number in origin})

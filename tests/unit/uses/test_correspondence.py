@@ -64,6 +64,31 @@ def test_faces_that_are_there_twice_are_one_place(figure):
     assert carried_labels(samples, labels, twice, np.tile(labels, 2))[0].tolist() == list(range(labels.max() + 1))
 
 
+def floor_below(shape, width=30.0):
+    """A shape with a square below it, of two triangles."""
+    square = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]) * width / 2
+    low = shape.vertices.min(axis=0) + np.ptp(shape.vertices, axis=0) * (0.5, 0.5, 0)
+    return shapes.together(shape, shapes.Shape(square + low, np.array([(0, 1, 2), (0, 2, 3)])))
+
+
+def test_a_floor_is_left_out_and_corresponds_to_a_floor(figure):
+    """All parts were the floor's, or one of those beside it."""
+    shape, labels, samples = figure
+    on_floor = floor_below(shape)
+    with_floor = sample_surface(*on_floor)
+    for name in ("distances", "weight", "profile", "position"):
+        np.testing.assert_array_equal(getattr(with_floor, name), getattr(samples, name))
+    n = labels.max() + 1
+    both = np.append(labels, [n, n])
+    assert carried_labels(with_floor, both, with_floor, both)[0].tolist() == list(range(n + 1))
+    label, share = carried_labels(with_floor, both, samples, labels)
+    assert label.tolist() == list(range(n))
+    label, share = carried_labels(samples, labels, with_floor, both)
+    assert (label[:-1].tolist(), share[-1]) == (list(range(n)), 0)
+    twice = sample_surface(on_floor.vertices, np.concatenate([on_floor.faces, on_floor.faces[-2:, ::-1]]))
+    assert carried_labels(with_floor, both, twice, np.append(both, [n, n]))[0].tolist() == list(range(n + 1))
+
+
 def test_labels_of_another_surface_are_refused(figure):
     """An IndexError, a lack of memory for labels such as colors or, of labels below 0, the wrong part."""
     _, labels, samples = figure
