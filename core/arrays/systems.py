@@ -11,11 +11,11 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 
-# Entries of a row from which on pivots must stay on the diagonal, see ``solved_anywhere``.
+# Entries of a row from which on pivots must stay on the diagonal, see ``solved_with_pivots``.
 LONG_ROW = 500
 
 
-def solved_anywhere(matrix: csr_array, right: np.ndarray) -> np.ndarray:
+def solved_with_pivots(matrix: csr_array, right: np.ndarray) -> np.ndarray:
     """Solve as ``solved`` does, but take the largest pivots unless a row is long.
 
     What ships has learned from surfaces whose systems were solved so: to the last digit, pivots on the diagonal give

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays.indexing import place_among
-from ..arrays.int64 import arange
-from ..arrays.vectors import cross, inner_products, row_products, second_moments, weighted_sum
+from ..arrays.indexing import place_among, spread_evenly
+from ..arrays.vectors import cross, inner_products, lengths, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
 from .triangles import TriMesh, vertex_components
@@ -138,8 +137,8 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
     for k in np.flatnonzero(stands & (area >= least)).tolist():
         others = stands.copy()
         others[k] = False
-        if area[others].sum() > LEAST * area[k] and (
-                _is_ground(mesh, piece == k, others[piece]) or _is_shell(mesh, piece == k, others[piece])):
+        mine, rest = piece == k, others[piece]
+        if area[others].sum() > LEAST * area[k] and (_is_ground(mesh, mine, rest) or _is_shell(mesh, mine, rest)):
             return k
     return None
 
@@ -182,9 +181,10 @@ def _is_shell(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     volume = abs(row_products(cross(a, b), c).sum()) / 6
     if abs(mesh.face_area[mine].sum() - shell.area) > CONVEX * shell.area or volume >= HOLLOW * whole.volume:
         return False
-    some = arange(0, len(theirs), max(len(theirs) // DEPTHS, 1))
+    middle = theirs.mean(axis=1)
+    some = spread_evenly(np.ones(len(middle)), lengths(middle - corners.mean(axis=0)), DEPTHS)
     weight = mesh.face_area[others][some]
-    return bool(weight @ _depth(shell, theirs[some].mean(axis=1)) >= DEEP * diameter * weight.sum()
+    return bool(weight @ _depth(shell, middle[some]) >= DEEP * diameter * weight.sum()
                 and _depth(shell, whole.points[whole.vertices]).min() >= -outside)
 
 
