@@ -3,7 +3,7 @@
 
 At the edges of such faces three and more meet, as if the surface branched there, and what is said of the bend, the
 borders and the inside of a surface holds no more. So a copy is left out before anything is measured, and has the part
-of the face on which it lies.
+of the face on which it lies. So is a second skin, which runs along the whole mesh at a small distance.
 """
 
 from __future__ import annotations
@@ -12,11 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.hashes import GOLDEN, hashed_rows
-from ..arrays.indexing import begins_run, inverse, stable_order
+from ..arrays.hashes import hashed_rows
+from ..arrays.indexing import begins_run, inverse
 from ..arrays.int64 import arange, cumsum
-from .polygons import MIN_FACES, PolygonMesh
-from .triangles import vertex_components
+from ..sentence import Sentence
+from .cavities import LEAST, POINTS, find_cavities
+from .pieces import Pieces, measured, nearest_on
+from .polygons import MIN_FACES, PolygonMesh, hashed_polygons
+from .skins import MOST_OF_MESH, find_skins
+from .triangles import TriMesh, vertex_components
 
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
@@ -39,6 +43,8 @@ class Copies:
         For each vertex, the place in ``vertex`` of one where it is; of most their own.
     turned : (p,) bool
         Whether each polygon is the other side of the one of which it is a copy.
+    apart : bool
+        Whether the copies are second skins, which do not lie on their originals.
     """
 
     polygon: np.ndarray
@@ -46,11 +52,26 @@ class Copies:
     vertex: np.ndarray
     home: np.ndarray
     turned: np.ndarray
+    apart: bool = False
 
     @property
     def n_copies(self) -> int:
         """Number of polygons that are copies."""
         return len(self.original) - len(self.polygon)
+
+    @property
+    def is_copy(self) -> np.ndarray:
+        """(p,) bool, whether each polygon is a copy."""
+        return self.polygon[self.original] != arange(len(self.original))
+
+    @property
+    def note(self) -> Sentence:
+        """What to say of them."""
+        if self.apart:
+            return Sentence("{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner "
+                            "wall, and {n:has|have} their parts.", n=self.n_copies)
+        return Sentence("{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.",
+                        n=self.n_copies)
 
     @property
     def has_other_side(self) -> np.ndarray:
@@ -67,7 +88,7 @@ class Copies:
         twin : (k,) int64, place in ``polygon`` of the image of each; -1 for none. Returns (p,) int64: the image of a
         copy is a copy of the image, if there is one.
         """
-        order = stable_order(self.original)
+        order = np.lexsort((self.is_copy, self.original))
         count = np.bincount(self.original)
         first = cumsum(count) - count
         rank = inverse(order) - first[self.original]
@@ -76,7 +97,7 @@ class Copies:
 
 
 def find_copies(given: PolygonMesh) -> Copies | None:
-    """Find polygons with the same corners as others, in the same order or the opposite one.
+    """Find polygons with the same corners as others, in the same order or the opposite one; if there are none, skins.
 
     Only in pieces that are copied nearly whole. Corners are the same where their coordinates are, whether they are one
     vertex or several.
@@ -90,9 +111,53 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     copies : Copies or None
         None if there are none, or if too few polygons would be left.
     """
+    place = hashed_rows(given.triangles.vertices)
+    return _with_same_corners(given, place) or _skins(given, place)
+
+
+def _skins(given: PolygonMesh, place: np.ndarray) -> Copies | None:
+    """Second skins as copies of what they run along; place : (n,) uint64, where each vertex is."""
     mesh = given.triangles
-    place = hashed_rows(mesh.vertices)
-    number, backwards = _outlines(given, place)
+    count, piece = vertex_components(mesh.faces, mesh.n_vertices)
+    if count == 1 or not _may_have_skins(mesh, piece[mesh.faces[:, 0]], count):
+        return None
+    found = _along(given, Pieces.of(given, place))
+    if found is None:  # an outline and what it is drawn around may have places in common where a normal is 0
+        found = _along(given, Pieces.of(given, arange(mesh.n_vertices)))
+    if found is None:
+        return None
+    original, home = found
+    is_kept, vertex = original == arange(len(original)), np.flatnonzero(home == arange(len(home)))
+    if is_kept.sum() < MIN_FACES:
+        return None
+    return Copies(np.flatnonzero(is_kept), (cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home),
+                  np.zeros(len(original), bool), apart=True)
+
+
+def _along(given: PolygonMesh, pieces: Pieces) -> tuple[np.ndarray, np.ndarray] | None:
+    """What polygons and vertices of skins and cavities run along, as ``nearest_on`` says it; None without such."""
+    if (base := find_skins(given, pieces)) is not None:
+        return nearest_on(given, pieces, base, 0)
+    if (base := find_cavities(given, pieces)) is not None:
+        return nearest_on(given, pieces, base, POINTS)
+    return None
+
+
+def _may_have_skins(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:
+    """Whether to look for skins and cavities at all, by what hangs together by its vertices; piece : (m,) int64.
+
+    Of a skin there are pieces of as many faces each, also where seams part them, and a cavity is inside out.
+    """
+    area, _, volume = measured(mesh, piece, count)
+    size = np.bincount(piece, minlength=count)
+    has_like = np.bincount(size)[size] > 1
+    return bool(area[has_like].sum() >= MOST_OF_MESH * mesh.area or ((volume < 0) & (area >= LEAST * mesh.area)).any())
+
+
+def _with_same_corners(given: PolygonMesh, place: np.ndarray) -> Copies | None:
+    """Polygons with the same corners as others; place : (n,) uint64, where each vertex is."""
+    mesh = given.triangles
+    number, backwards = hashed_polygons(given, place)
     in_order = np.sort(number[number > 0])
     if not (in_order[1:] == in_order[:-1]).any():
         return None
@@ -142,22 +207,3 @@ def _mostly_copied(given: PolygonMesh, place: np.ndarray, is_copied: np.ndarray)
     of_polygon = np.zeros(given.n_polygons, bool)
     of_polygon[given.polygon] = mostly[of_triangle]
     return of_polygon
-
-
-def _outlines(given: PolygonMesh, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A number for the outline of each polygon, (p,) uint64, that is equal for equal ones; 0 for some without area.
-
-    And which of the two ways round the outline it runs, (p,) bool. place : (n,) uint64, where each vertex is. Each side
-    of a triangle counts with a sign for its direction, so that sides within a polygon cancel out, however it is cut
-    into triangles.
-    """
-    other = (place ^ place >> np.uint64(32)) * GOLDEN
-    corners = given.triangles.faces.T
-    total = np.zeros(given.triangles.n_faces, np.uint64)
-    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        total += place[a] * other[b] - place[b] * other[a]
-    if given.n_polygons < given.triangles.n_faces:
-        of_triangle, total = total, np.zeros(given.n_polygons, np.uint64)
-        np.add.at(total, given.polygon, of_triangle)
-    other_way = np.uint64(0) - total
-    return np.minimum(total, other_way), total > other_way

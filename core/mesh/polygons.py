@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.hashes import GOLDEN
 from ..arrays.indexing import frozen, place_among
 from ..arrays.int64 import arange
 from ..errors import EmptyMeshError, MeshError
@@ -144,6 +145,40 @@ def normalized(mesh: TriMesh) -> tuple[TriMesh, int]:
         return mesh, 0
     # A vertex without a face can be anywhere, and is of no account.
     return TriMesh(np.ldexp(np.where(mesh.used[:, None], mesh.vertices, 0.0), -exponent), mesh.faces), exponent
+
+
+def hashed_polygons(mesh: PolygonMesh, corner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Number polygons by their outlines.
+
+    Parameters
+    ----------
+    mesh : PolygonMesh
+    corner : (n,) uint64
+        A number for each vertex.
+
+    Returns
+    -------
+    number : (p,) uint64
+        Equal for polygons whose corners have the same numbers, in the same order or the opposite one, and hardly ever
+        for others; 0 for some without area.
+    backwards : (p,) bool
+        Which of the two ways round the outline each polygon runs.
+
+    Notes
+    -----
+    Each side of a triangle counts with a sign for its direction, so that sides within a polygon cancel out, however it
+    is cut into triangles.
+    """
+    other = (corner ^ corner >> np.uint64(32)) * GOLDEN
+    corners = mesh.triangles.faces.T
+    total = np.zeros(mesh.triangles.n_faces, np.uint64)
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        total += corner[a] * other[b] - corner[b] * other[a]
+    if mesh.n_polygons < mesh.triangles.n_faces:
+        of_triangle, total = total, np.zeros(mesh.n_polygons, np.uint64)
+        np.add.at(total, mesh.polygon, of_triangle)
+    other_way = np.uint64(0) - total
+    return np.minimum(total, other_way), total > other_way
 
 
 def _numbered(faces: ArrayLike, polygon: ArrayLike) -> tuple[np.ndarray, np.ndarray, int]:

@@ -334,20 +334,18 @@ class Decomposition:
         Returns
         -------
         decomposition : Decomposition
-            Of the same parts; each copy is in contact with the face on which it lies, and in its candidate.
+            Of the same parts; each copy is in contact with the face of which it is one, and in its candidate.
         """
         face, kept = copies.original, copies.polygon
         label = self.candidates[face]
-        lies = np.flatnonzero(kept[face] != arange(len(face)))
+        lies = np.flatnonzero(copies.is_copy)
         has_twins = len(self.face_twin) > 0
-        note = Sentence("{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.",
-                        n=copies.n_copies)
         return replace(
             self, candidates=label, candidate_area=np.bincount(label, area, self.n_candidates),
             vertex_candidates=self.vertex_candidates[copies.home], field=self.field[copies.home],
             contacts=np.concatenate([kept[self.contacts], np.stack([kept[face[lies]], lies], axis=1)]),
             links=kept[self.links], face_twin=copies.images(self.face_twin) if has_twins else self.face_twin,
-            face_side=self.face_side[face] if has_twins else self.face_side, notes=(*self.notes, note))
+            face_side=self.face_side[face] if has_twins else self.face_side, notes=(*self.notes, copies.note))
 
     def to_arrays(self) -> dict[str, np.ndarray]:
         """All arrays by name, those of hierarchy and graph as "hierarchy.merges" and so on; not copied."""

@@ -82,7 +82,7 @@ SHORT = {
     "benchmarks/timing.py": at_a_small_size,
     **{f"benchmarks/{name}.py": help_of(2) for name in (
         "again", "batch", "blender_io", "cgal", "crossvalidate", "detail", "growth", "hand_tools", "label", "paper",
-        "princeton", "report", "robustness", "same_results", "separate", "train", "uses")},
+        "princeton", "report", "robustness", "same_results", "separate", "surroundings", "train", "uses")},
     "pytest": only_collected,
     "blender": in_blender,
 }

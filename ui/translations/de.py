@@ -754,6 +754,10 @@ TEXTS = {
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
     "{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.":
         "Flächen, die auf einer anderen mit denselben Ecken liegen und deren Teil haben: {n}.",
+    "{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner wall, and "
+    "{n:has|have} their parts.":
+        "Flächen, die als zweite Haut, etwa als Kontur oder Innenwand, an anderen entlanglaufen und deren Teile "
+        "haben: {n}.",
     "{n} border {n:edge|edges}: the surface is open there.": "Randkanten: {n}; dort ist die Oberfläche offen.",
     "{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.":
         "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",

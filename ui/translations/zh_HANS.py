@@ -692,6 +692,9 @@ TEXTS = {
     "{n} {n:edge joins|edges join} more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
     "{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.":
         "{n} 个面与另一个顶点相同的面重合，属于同一部件。",
+    "{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner wall, and "
+    "{n:has|have} their parts.":
+        "{n} 个面作为第二层表面（如描边或内壁）沿着其他面延伸，与它们属于相同的部件。",
     "{n} border {n:edge|edges}: the surface is open there.": "{n} 条开放边：表面在此处开放。",
     "{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.":
         "{n} 个顶点不属于任何面；它们不归入部件。",
