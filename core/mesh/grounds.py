@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays.indexing import place_among, spread_evenly
+from ..arrays.hashes import hashed_rows
+from ..arrays.indexing import place_among, renumbered, spread_evenly
 from ..arrays.vectors import cross, inner_products, lengths, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
@@ -32,6 +33,10 @@ SHEET, SLAB = 0.05, 0.4
 # The rest is so high then, at least, in units of the root of its sides across, multiplied, and no more than a share of
 # its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
 HIGH, BELOW = 0.1, 0.05
+# Or it is a relief, such as hills, all of it seen from one direction: its shadow has at least the first of these as a
+# share of its area, and its faces look there but for the second. The rest has at least the third, is as high, seen from
+# there, and on one side.
+SHADOW, TURNED, REST = 0.6, 0.02, 0.002
 # A ground, too, is a convex shell - its area is that of its hull but for this share - of no more faces than this if the
 # rest is within it but for a share of its diameter, and deep within: by this share of it, in the mean. The marks on a
 # ruler are not. Nor is the inner wall of a box: the rest has less than this share of the volume of its own hull.
@@ -75,16 +80,13 @@ def find_standing(given: PolygonMesh) -> Standing | None:
         None if there are no grounds, or if too few polygons would be left.
     """
     mesh = given.triangles
-    count, of_vertex = vertex_components(mesh.faces, mesh.n_vertices)
-    piece = of_vertex[mesh.faces[:, 0]]
-    stands = np.bincount(piece, minlength=count) > 0
-    if stands.sum() == 1:
+    stands = _standing_faces(mesh, mesh.faces)
+    if stands is not None and stands.all():  # the tiles of a floor share places, and may share no vertices
+        stands = _standing_faces(mesh, _by_place(mesh))
+    if stands is None:
         return None
-    area = np.bincount(piece, mesh.face_area, count)
-    while (found := _ground(mesh, piece, area, stands)) is not None:
-        stands[found] = False
     is_standing = np.zeros(given.n_polygons, bool)
-    is_standing[given.polygon[stands[piece]]] = True
+    is_standing[given.polygon[stands]] = True
     if is_standing.all() or is_standing.sum() < MIN_FACES:
         return None
     vertex = ~mesh.used
@@ -131,6 +133,24 @@ def grounds_among(labels: np.ndarray, is_ground: np.ndarray) -> np.ndarray:
     return ground & (not ground.all())
 
 
+def _standing_faces(mesh: TriMesh, corner: np.ndarray) -> np.ndarray | None:
+    """Which faces are no ground, (m,) bool; corner : (m, 3) int64, by which they hang together. None of one piece."""
+    count, of_corner = vertex_components(corner, mesh.n_vertices)
+    piece = of_corner[corner[:, 0]]
+    stands = np.bincount(piece, minlength=count) > 0
+    if stands.sum() == 1:
+        return None
+    area = np.bincount(piece, mesh.face_area, count)
+    while (found := _ground(mesh, piece, area, stands)) is not None:
+        stands[found] = False
+    return stands[piece]
+
+
+def _by_place(mesh: TriMesh) -> np.ndarray:
+    """A number for each corner, (m, 3) int64, the same for those at one place."""
+    return renumbered(hashed_rows(mesh.vertices).view(np.int64))[1][mesh.faces]
+
+
 def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:
     """A piece on which all others stand, of those that do so far; piece : (m,) int64. area, stands : (q,)."""
     least = SHARE * area[stands].sum()
@@ -152,13 +172,36 @@ def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     own, its = (inner_products(mesh.corners[some].reshape(-1, 3) - middle, axes.T) for some in (mine, others))
     sides, its_sides = np.ptp(own, axis=0), np.ptp(its, axis=0)
     few = mine.sum() <= FEW_FACES * (mine | others).sum()
-    if few and _is_larger(np.sort(sides)[1:], np.sort(its_sides)[1:]):
+    wide = np.sort(its_sides)[1:]
+    if _is_larger(np.sort(sides)[1:], wide) and (few or _is_relief(mesh, mine, others, HIGH * np.sqrt(wide.prod()))):
         return True
     if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:]):
         return False
     its_weight, thickness = np.repeat(mesh.face_area[others], 3), np.abs(own[:, 0]).max()
     beyond = min(its_weight[side * its[:, 0] > thickness].sum() for side in (-1, 1))
     return bool(its_sides[0] >= HIGH * np.sqrt(its_sides[1:].prod()) and beyond <= BELOW * its_weight.sum())
+
+
+def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, high: float) -> bool:
+    """Whether some faces are all seen from one direction, with the others before them, and as high as that.
+
+    mine, others : (m,) bool. high : float, in the unit of the vertices.
+    """
+    area, weight = mesh.face_area[mine], mesh.face_area[others]
+    direction = mesh.area_normals[mine].sum(axis=0)
+    shadow = np.linalg.norm(direction)
+    if shadow < SHADOW * area.sum() or weight.sum() < REST * area.sum():
+        return False
+    turned = inner_products(mesh.area_normals[mine], direction) < 0
+    height = np.ptp(inner_products(mesh.corners[others].reshape(-1, 3), direction / shadow))
+    if area[turned].sum() > TURNED * area.sum() or height < high:
+        return False
+    from scipy.spatial import cKDTree  # imported here for the reason that arrays.components gives
+
+    middle, place = mesh.face_centroids[mine], mesh.face_centroids[others]
+    below = cKDTree(middle).query(place)[1]
+    above = row_products(place - middle[below], mesh.area_normals[mine][below])
+    return bool(min(weight[above < 0].sum(), weight[above > 0].sum()) <= BELOW * weight.sum())
 
 
 def _is_shell(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:

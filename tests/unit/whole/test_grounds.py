@@ -24,6 +24,22 @@ def sheet(width, n=1, depth=None):
                         np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]))
 
 
+def hills(width, n=30):
+    """A grid of n x n quads that goes up and down, below z = 0."""
+    vertices, faces = sheet(width, n)
+    x, y = vertices[:, :2].T / width
+    height = 0.06 * width * (np.sin(9 * x + 1) * np.cos(7 * y) - 1)
+    return shapes.Shape(vertices + height[:, None] * (0, 0, 1), faces)
+
+
+def tiles(width, n=6):
+    """The sheet of n x n quads, no two of which share vertices."""
+    vertices, faces = sheet(width, n)
+    quads = np.concatenate([faces[:n * n], faces[n * n:, 2:]], axis=1)
+    return shapes.Shape(vertices[quads].reshape(-1, 3), np.concatenate(
+        [4 * np.arange(n * n)[:, None] + triangle for triangle in ((0, 1, 2), (0, 2, 3))]))
+
+
 def tree():
     """The tree of tubes, its lowest point at z = 0."""
     return shapes.moved(shapes.tube_tree(), (0, 0, -shapes.tube_tree().vertices[:, 2].min()))
@@ -60,9 +76,9 @@ def collider():
 @pytest.mark.parametrize("floor", [
     sheet(5), sheet(40), sheet(200), sheet(12, 30), sheet(5, depth=0.6), sheet(15, depth=2), backdrop(15),
     shapes.icosphere(1, 20), shapes.moved(shapes.box((15, 15, 10)), (-7.5, -7.5, 0)), collider(),
-    shapes.icosphere(2, 7.5)],
+    shapes.icosphere(2, 7.5), hills(15), tiles(15), shapes.subdivide(shapes.subdivide(shapes.subdivide(backdrop(15))))],
     ids=["near", "wide", "very wide", "of many faces", "plinth", "slab", "backdrop", "dome", "room", "box around it",
-         "ball around it"])
+         "ball around it", "hills", "tiles", "backdrop of many faces"])
 def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
     """On a floor three times as wide a person was one part."""
     alone, n = decompose(*tree()), len(tree().faces)
@@ -147,6 +163,21 @@ def test_what_is_no_ground():
     assert not has_ground(sheet(6, 3), shapes.box((1, 1, 1)), shapes.moved(shapes.box((1, 1, 1)), (0, 0, -1)))
     assert not has_ground(sheet(6, depth=1), box)  # as few faces have both
     assert not has_ground(sheet(1e6), box)
+
+
+def test_what_is_no_relief():
+    """Its things lie on both sides, or flat, it is no larger than they are, or it goes round them."""
+    box = shapes.subdivide(shapes.box((1, 1, 1)))
+    assert has_ground(hills(6), box)
+    assert has_ground(shapes.inside_out(hills(6)), box)
+    assert not has_ground(hills(6), box, shapes.moved(box, (0, 0, -3)))
+    assert not has_ground(hills(6), shapes.moved(shapes.box((1, 1, 0.02)), (0, 0, 0.01)))
+    assert not has_ground(hills(1.5), box)
+    vertices, faces = shapes.cylinder(12, 24, 5.0, 12.0)
+    middle = vertices[faces].mean(axis=1)
+    for share, found in ((0.2, True), (0.7, False)):  # of a turn
+        round_it = (np.abs(np.arctan2(middle[:, 1], middle[:, 0])) < share * np.pi) & (middle[:, 2] % 12 > 0)
+        assert has_ground(shapes.Shape(vertices, faces[round_it]), shapes.moved(box, (3.0, -0.5, 6.0))) == found, share
 
 
 def test_what_is_no_shell():
