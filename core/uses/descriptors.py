@@ -2,7 +2,8 @@
 """What a part is like, in numbers: its size, its shape and its place in the Reeb graph, nearly the same in every pose.
 
 Lengths are in units of the square root of the area of the model, or of the part where the name says so, so that the
-scale of a model is of no account. ``distances`` compares parts of any models.
+scale of a model is of no account. What stands on a ground, such as a floor, is described as if that were not there.
+``distances`` compares parts of any models.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from ..arrays.vectors import middles_of_each, second_moments_of_each
 from ..errors import MeshError
 from ..graph.critical import MAXIMUM
 from ..mesh.copies import find_copies
+from ..mesh.grounds import are_ground, grounds_among
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import TriMesh
 from ..result.parts import Parts
@@ -44,11 +46,12 @@ NAMES = (
 )
 """Columns of a descriptor.
 
-``share`` of the area; quantiles of the ``field``, of the ``depth``, the geodesic distance from the cuts, of the
-``radius`` of the contours of the graph, and of the distances ``apart`` of points of the part in space; its ``length``,
-``width`` and ``height`` along its principal axes; the length of its cuts, as all lengths in units of its size, the root
-of its area; parts that it touches; tips and arcs of the graph in it; share and field of what it touches, weighted by
-the length of the cuts; how many cuts lie between it and the largest; whether it has a mirror image.
+``share`` of the area of what is no ground; quantiles of the ``field``, of the ``depth``, the geodesic distance from the
+cuts, of the ``radius`` of the contours of the graph, and of the distances ``apart`` of points of the part in space; its
+``length``, ``width`` and ``height`` along its principal axes; the length of its cuts, as all lengths in units of its
+size, the root of its area; parts that it touches; tips and arcs of the graph in it; share and field of what it touches,
+weighted by the length of the cuts; how many cuts lie between it and the largest; whether it has a mirror image. A
+ground touches nothing here.
 """
 
 # Typical differences of each column between parts of one kind: the root of half the mean square over parts of one
@@ -67,19 +70,25 @@ class _Surface:
     Attributes
     ----------
     mesh : TriMesh
-        m faces, n vertices; lengths in units of the square root of the area.
+        m faces, n vertices; lengths in units of the square root of the area of what is no ground.
     label : (m,) int64
         Part of each face.
     field : (n,) float64
         Normalized average geodesic distance.
     area : (count,) float64
         Area of each part as ``Parts.area``, but without faces that lie on others with the same corners.
+    unit : float
+        Length that is 1 in ``mesh``, in the unit of the caller's vertices.
+    is_ground : (count,) bool
+        Which parts are grounds.
     """
 
     mesh: TriMesh
     label: np.ndarray
     field: np.ndarray
     area: np.ndarray
+    unit: float
+    is_ground: np.ndarray
 
     @classmethod
     def of(cls, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None,
@@ -95,11 +104,14 @@ class _Surface:
             before = _areas(given, label, parts.count)
             given, label, field = without_copies(given, copies), label[copies.polygon], field[copies.vertex]
             area = area * _areas(given, label, parts.count) / np.maximum(before, 1e-300)
+        is_ground = are_ground(given)
         given, ordering = sorted_by_place(given)
         working = repair(given)
-        unit = np.sqrt(working.mesh.area)
-        return cls(TriMesh(working.mesh.vertices / unit, working.mesh.faces), label[ordering.polygon][working.polygon],
-                   np.nan_to_num(field[ordering.vertex][working.vertex_source]), area)
+        standing = working.mesh.face_area @ ~is_ground[ordering.polygon][working.polygon]
+        return cls(TriMesh(working.mesh.vertices / np.sqrt(standing), working.mesh.faces),
+                   label[ordering.polygon][working.polygon],
+                   np.nan_to_num(field[ordering.vertex][working.vertex_source]), area,
+                   float(np.sqrt(area.sum() * (standing / working.mesh.area))), grounds_among(label, is_ground))
 
     @property
     def count(self) -> int:
@@ -108,18 +120,17 @@ class _Surface:
 
     @property
     def share(self) -> np.ndarray:
-        """Area of each part as a share of the whole, (count,)."""
-        return self.area / self.area.sum()
+        """Area of each part as a share of that of what is no ground, (count,)."""
+        return self.area / self.unit**2
 
     @property
     def size(self) -> np.ndarray:
         """Root of the share of each part, (count,)."""
         return np.sqrt(np.maximum(self.share, 1e-12))
 
-    @property
-    def unit(self) -> float:
-        """Length that is 1 in ``mesh``, in the unit of the caller's vertices."""
-        return float(np.sqrt(self.area.sum()))
+    def between_standing(self, parts: Parts) -> np.ndarray:
+        """Which cuts lie between parts that are no grounds, (e,) bool."""
+        return ~self.is_ground[parts.cuts].any(axis=1)
 
     def mean_field(self) -> np.ndarray:
         """Field of each face, (m,)."""
@@ -198,7 +209,7 @@ def part_descriptors(
         "n_leaves": np.log1p(np.bincount(parts.node_part[parts.decomposition.graph.node_kind == MAXIMUM],
                                          minlength=parts.count)),
         "n_arcs": np.log1p(np.bincount(parts.arc_part, minlength=parts.count)),
-        "hops": np.log1p(_hops(parts, surface.area)),
+        "hops": np.log1p(_hops(surface, parts)),
         **_neighborhood(surface, parts), **_shape(surface),
     }
     field = surface.quantiles(surface.mean_field(), QUANTILES)
@@ -210,20 +221,23 @@ def part_descriptors(
     return np.column_stack([columns[name] for name in NAMES])
 
 
-def _hops(parts: Parts, area: np.ndarray) -> np.ndarray:
+def _hops(surface: _Surface, parts: Parts) -> np.ndarray:
     """How many cuts lie between each part and the largest one, (count,); the number of parts where there is no way.
 
-    area : (count,) float64, of each part.
+    Grounds do not count, and are 0 cuts from themselves.
     """
-    graph = coo_array((np.ones(len(parts.cuts)), parts.cuts.T), (parts.count,) * 2).tocsr()
-    hops = dijkstra(graph, directed=False, unweighted=True, indices=int(area.argmax()))
-    return np.where(np.isfinite(hops), hops, parts.count)
+    cuts, ground = parts.cuts[surface.between_standing(parts)], surface.is_ground
+    graph = coo_array((np.ones(len(cuts)), cuts.T), (parts.count,) * 2).tocsr()
+    start = np.append(np.flatnonzero(ground), np.where(ground, -1.0, surface.area).argmax())
+    hops = dijkstra(graph, directed=False, unweighted=True, indices=start, min_only=True)
+    return np.where(np.isfinite(hops), hops, (~ground).sum())
 
 
 def _neighborhood(surface: _Surface, parts: Parts) -> dict[str, np.ndarray]:
     """How a part touches others, and what these are like."""
-    owner, other = both_ways(parts.cuts).T
-    weight = np.maximum(np.tile(parts.cut_length, 2), 1e-9 * surface.unit)
+    between = surface.between_standing(parts)
+    owner, other = both_ways(parts.cuts[between]).T
+    weight = np.maximum(np.tile(parts.cut_length[between], 2), 1e-9 * surface.unit)
     field = surface.quantiles(surface.mean_field(), (0.5,))[:, 0]
     around = np.stack([surface.share, field], axis=1)[other]
     length, mean = middles_of_each(owner, around, weight, parts.count)

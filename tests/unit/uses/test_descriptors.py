@@ -99,6 +99,23 @@ def test_a_part_of_copies_alone_is_described_with_them():
                                                                          abs=0.02)
 
 
+def test_what_stands_on_a_floor_is_described_as_without_it(tree):
+    """Shares and lengths were measured by the floor, and cuts were counted from it."""
+    shape, parts = tree
+    floor = shapes.moved(shapes.box((60, 60, 1)), (-30, -30, shape.vertices[:, 2].min() - 1))
+    both = shapes.together(shape, floor)
+    on_floor = decompose(*both).parts()
+    assert on_floor.count == parts.count + 1
+    ground = on_floor.labels[-1]
+    first = np.unique(parts.labels, return_index=True)[1]
+    to = on_floor.labels[first]
+    found = part_descriptors(*both, on_floor)
+    np.testing.assert_allclose(found[to], part_descriptors(*shape, parts), rtol=1e-9, atol=1e-9)
+    row = dict(zip(NAMES, found[ground], strict=True))
+    assert np.exp(row["log_share"]) == pytest.approx(on_floor.area[ground] / parts.area.sum())
+    assert [row[name] for name in ("n_neighbors", "cut_length", "hops")] == [0] * 3
+
+
 def test_a_ball_alone_is_what_it_is():
     ball = shapes.icosphere(3)
     parts = decompose(*ball, Parameters(n_parts=1)).parts()
@@ -135,11 +152,13 @@ def test_depth_is_the_way_from_the_cuts_of_the_own_part():
     vertices, quads = shapes.flat_cells([(x, 0) for x in range(8)])
     mesh = TriMesh(vertices, quads)
     part = (mesh.face_centroids[:, 0] > 5).astype(int)
-    depth = _Surface(mesh, part, np.zeros(mesh.n_vertices), 2).depth()
+    depth = _Surface(mesh, part, np.zeros(mesh.n_vertices), np.array([5.0, 3.0]), 1.0, np.zeros(2, bool)).depth()
     beside = mesh.edges.pairs[part[mesh.edges.pairs[:, 0]] != part[mesh.edges.pairs[:, 1]]].ravel()
     for face, own in enumerate(part):
         (first,) = beside[part[beside] == own]
         straight = np.linalg.norm(mesh.face_centroids[face] - mesh.face_centroids[first])
         assert straight - 1e-9 <= depth[face] <= 1.7 * straight + 1e-9
     assert depth.max() > 4
-    assert (_Surface(mesh, np.zeros(mesh.n_faces, int), np.zeros(mesh.n_vertices), 1).depth() == 0).all()
+    one, alone = np.zeros(mesh.n_faces, int), np.zeros(1, bool)
+    whole = _Surface(mesh, one, np.zeros(mesh.n_vertices), np.array([8.0]), 1.0, alone)
+    assert (whole.depth() == 0).all()
