@@ -226,7 +226,10 @@ def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.O
 
 def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
                found: Skeleton, smooth: Weights) -> Weights:
-    """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
+    """Blender's own weights, found on a copy; where it finds none, and on grounds, the smooth ones.
+
+    To Blender all that is near a bone hangs on it: legs would move the floor on which they stand.
+    """
     from ...core.uses.moving.skinning import Weights, limited
 
     copy = mesh_arrays.mesh_of(found.table, NAME) if found.is_half else part_meshes.plain_copy(obj.data)
@@ -252,6 +255,8 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
         for vertex in copy.vertices:  # groups cannot be read in bulk
             for entry in vertex.groups:
                 mass[vertex.index, column[entry.group]] = entry.weight
+    mass[:, found.ground] = 0.0
+    mass[found.on_ground] = 0.0
     own, known = limited(mass), mass.any(axis=1, keepdims=True)
     return Weights(np.where(known, own.bone, smooth.bone), np.where(known, own.weight, smooth.weight))
 

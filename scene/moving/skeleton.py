@@ -40,6 +40,8 @@ class Skeleton:
         The object's mesh; of a half model the whole, whose first vertices are those of the mesh.
     labels : (p,) int64
         Bone of each face of the table.
+    ground : (count,) bool
+        Which bones are those of grounds, such as a floor.
     twin : (count,) int64
         Bone that is the mirror image of each bone of a half model, itself if it is in the plane; empty for others.
     on_plane : (n,) bool
@@ -53,9 +55,17 @@ class Skeleton:
     names: list[str]
     table: CornerTable
     labels: np.ndarray
+    ground: np.ndarray
     twin: np.ndarray
     on_plane: np.ndarray
     n_stiff: int
+
+    @property
+    def on_ground(self) -> np.ndarray:
+        """(n,) bool, the vertices of the table that belong to a ground."""
+        found = np.zeros(len(self.table.vertices), bool)
+        found[self.table.corner_vertex[self.ground[self.labels[self.table.corner_face]]]] = True
+        return found
 
     @property
     def is_half(self) -> bool:
@@ -98,8 +108,9 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
         bones = part_bones(surface)
     twin = np.empty(0, np.int64) if whole is None else part_bone[parts.twin[bone_part]]
     on_plane = np.empty(0, bool) if whole is None else whole.on_plane
+    n_stiff = int((~np.isin(arange(numbered.parts.count), bone_part)).sum())
     return Skeleton(place, bones, _names(obj.data, numbered, whole, bone_part), surface.table, part_bone[parts.labels],
-                    twin, on_plane, int((~np.isin(arange(numbered.parts.count), bone_part)).sum()))
+                    surface.grounds[bone_part], twin, on_plane, n_stiff)
 
 
 def _surface(obj: bpy.types.Object, shape: bridge.Shape, parts: Parts, whole: Whole | None,

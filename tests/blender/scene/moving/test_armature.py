@@ -137,6 +137,26 @@ def test_weights_are_few_and_add_up(obj, weights):
         assert np.abs(found[ends[:, 0]] - found[ends[:, 1]]).max() < 0.35
 
 
+@pytest.mark.parametrize("weights", ["SMOOTH", "AUTOMATIC", "PARTS"])
+def test_a_floor_moves_by_its_own_bone_alone(make, weights):
+    """By Blender's own weights it went with the limbs that stood on it, and these with it."""
+    tree = shapes.tube_tree()
+    floor = shapes.box((20, 20, 0.4))
+    for _ in range(4):
+        floor = shapes.subdivide(floor)
+    low = tree.vertices[:, 2].min()
+    obj = make(shapes.together(tree, shapes.moved(floor, (-10, -10, low - 0.4))))
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature(weights=weights)
+    found, names = weights_of(obj)
+    number = numbers_of(obj.data)[-1]
+    (ground,) = [names.index(DEFORM * (weights != "PARTS") + part.name) for part in obj.data.reeb_parts.parts
+                 if part.number == number]
+    is_floor = np.arange(len(found)) >= len(tree.vertices)
+    np.testing.assert_array_equal(found[:, ground], is_floor)
+    assert (found[is_floor] > 0).sum() == is_floor.sum()
+
+
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_bent_by_60_degrees_no_face_is_turned_over(obj, mirrored):
     """Each joint, to four sides, as Blender poses it; the volume stays within a tenth."""
