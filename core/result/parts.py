@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays.indexing import largest_of_each, sums_by
 from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
+from ..mesh.grounds import SHARE
 from ..mesh.labels import borders, majority
 from ..mesh.triangles import vote_weights
 from .junctions import counted_again
@@ -69,6 +70,17 @@ class Parts:
     def share(self) -> np.ndarray:
         """(count,) float64, area of each part as a share of the whole, 0..1."""
         return self.area / self.area.sum()
+
+    @cached_property
+    def ground(self) -> np.ndarray:
+        """(count,) bool, parts of grounds alone: as large as a ground is, and with nothing of the graph."""
+        in_graph = np.zeros(self.count, bool)
+        in_graph[self.node_part] = in_graph[self.point_part] = True
+        ground, area = ~in_graph, np.where(in_graph, 0.0, self.area)
+        order = np.argsort(-area, kind="stable")
+        left = self.area.sum() - np.cumsum(area[order]) + area[order]  # without those before
+        ground[order] &= np.logical_and.accumulate(area[order] >= SHARE * left)
+        return ground
 
     @property
     def count(self) -> int:

@@ -139,6 +139,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
             part.name = part_names.shown_name(number, own_names[label], kept_names)
             part.color = shades[label]
             part.share = numbered.parts.share[label]
+            part.is_ground = bool(numbered.parts.ground[label])
             part.middle = middles[label]
             for key, value in zip(keys, known.get(number, ()), strict=False):
                 setattr(part, key, value)

@@ -109,9 +109,15 @@ def choose_more(mesh: bpy.types.Mesh, numbers: list[int], mode: str) -> None:
 
 
 def small_parts(mesh: bpy.types.Mesh) -> list[bpy.types.PropertyGroup]:
-    """The small parts that are folded into one row; none of a short list."""
-    parts, share = mesh.reeb_parts.parts, bpy.context.scene.reeb_parts.small / 100
-    return [part for part in parts if part.share < share] if len(parts) > _SHORT else []
+    """The small parts that are folded into one row; none of a short list.
+
+    Beside a wide floor all parts are small: they are measured by what stands there.
+    """
+    parts = mesh.reeb_parts.parts
+    if len(parts) <= _SHORT:
+        return []
+    least = bpy.context.scene.reeb_parts.small / 100 * sum(part.share for part in parts if not part.is_ground)
+    return [part for part in parts if part.share < least]
 
 
 def folded(mesh: bpy.types.Mesh) -> set[int]:

@@ -41,6 +41,7 @@ class ReebPart(bpy.types.PropertyGroup):
         description="Color of the part; one that you choose stays with it",
     )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
+    is_ground: BoolProperty()  # a floor, or what else the rest was decomposed without
     middle: FloatVectorProperty(size=3)  # of its surface, in the coordinates of the mesh
     own_name: StringProperty(description="The name of the part until the user gives it another")
     locked: BoolProperty(

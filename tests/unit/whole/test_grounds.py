@@ -92,6 +92,8 @@ def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
         assert len(set(labels[:n])) == alone.parts().count >= 4
         assert len(set(labels[n:])) == 1
         assert labels[n] not in labels[:n]
+        assert np.flatnonzero(found.parts().ground).tolist() == [labels[n]]
+        assert not found.parts(0).ground.any()
         assert found.parts(0).count == 1
         assert found.parts(n_parts=2).labels.tolist() in ([0] * n + [1] * (len(labels) - n),
                                                            [1] * n + [0] * (len(labels) - n))
@@ -112,6 +114,7 @@ def test_floor_and_wall_are_grounds():
     labels = found.parts().labels
     np.testing.assert_array_equal(found.candidates[:len(tree().faces)], decompose(*tree()).candidates)
     assert len(set(labels[-4:])) == 2
+    assert set(np.flatnonzero(found.parts().ground)) == set(labels[-4:])
     assert "The rest is decomposed without 2 large plain pieces, such as a floor." in map(str, found.notes)
 
 

@@ -108,6 +108,18 @@ def test_small_parts_of_a_long_list_are_folded(obj, result, listed):
     assert listed.folded(obj.data) == set()
 
 
+def test_beside_a_floor_parts_are_as_small_as_without_it(make, listed):
+    """All were below 1 % of a wide floor: all but that were folded, and Merge Small made one part of them."""
+    tree, small = shapes.tube_tree(), []
+    low = tree.vertices[:, 2].min()
+    for floor in ([], [shapes.moved(shapes.box((60, 60, 1)), (-30, -30, low - 1))]):
+        obj = make(shapes.together(tree, *floor))
+        bpy.ops.reeb_parts.decompose(n_parts=14 + len(floor))
+        assert sum(part.is_ground for part in obj.data.reeb_parts.parts) == len(floor)
+        small.append(len(listed.small_parts(obj.data)))
+    assert 0 < small[0] == small[1] < 14
+
+
 def test_small_parts_are_merged_into_what_they_touch(obj, result):
     bpy.context.scene.reeb_parts.small = 2.0
     result.n_parts = 30
