@@ -109,14 +109,32 @@ def _one_color_each(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
 
 
 def _groups(obj: bpy.types.Object, numbers: np.ndarray) -> list[str]:
-    """Vertex groups with the own names of parts that hold the vertices of a part, each wholly. numbers : (p,) int32."""
-    held: dict[int, dict[int, float]] = {
-        group.index: {} for group in obj.vertex_groups if _OWN_NAME.fullmatch(group.name)}
-    for item in obj.data.vertices if held else ():  # cannot be read in bulk
-        for entry in item.groups:
-            if entry.group in held:
-                held[entry.group][item.index] = entry.weight
+    """Vertex groups that hold the vertices of a part, each wholly and no others. numbers : (p,) int32.
+
+    Those with the own names of parts; others, which have the names that the user gave, only where all parts have
+    groups, and no other one holds the same vertices.
+    """
     vertex, face = mesh_arrays.face_corners(obj.data)
     of_parts = {frozenset(vertex[numbers[face] == number].tolist()) for number in np.unique(numbers[numbers > 0])}
-    return [obj.vertex_groups[index].name for index, weights in held.items()
-            if frozenset(weights) in of_parts and set(weights.values()) == {1.0}]
+    region = frozenset().union(*of_parts)
+    found: dict[frozenset[int], list[str]] = {}
+    there = set()  # a group of one name that both meshes had holds vertices of both
+    for index, weights in _weights(obj).items():
+        inside = frozenset(weights) & region
+        if inside in of_parts and all(weights[item] == 1.0 for item in inside):
+            there.add(inside)
+            if len(inside) == len(weights):
+                found.setdefault(inside, []).append(obj.vertex_groups[index].name)
+    named = [name for names in found.values() for name in names if _OWN_NAME.fullmatch(name)]
+    if there == of_parts:
+        named += [names[0] for names in found.values() if len(names) == 1 and not _OWN_NAME.fullmatch(names[0])]
+    return named
+
+
+def _weights(obj: bpy.types.Object) -> dict[int, dict[int, float]]:
+    """The weight of each vertex in each vertex group, by their indices."""
+    found: dict[int, dict[int, float]] = {group.index: {} for group in obj.vertex_groups}
+    for item in obj.data.vertices if found else ():  # cannot be read in bulk
+        for entry in item.groups:
+            found[entry.group][item.index] = entry.weight
+    return found

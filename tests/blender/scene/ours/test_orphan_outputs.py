@@ -45,8 +45,9 @@ def test_what_came_along_with_a_joined_object_is_ours(make, after):
 
 
 @pytest.mark.parametrize("after", ["decompose", "clear"])
-def test_what_came_into_a_decomposed_object_is_ours(make, after):
-    """Its groups and materials stayed for ever."""
+@pytest.mark.parametrize("named", ["", "A", "ABCDEF"], ids=len)
+def test_what_came_into_a_decomposed_object_is_ours(make, after, named):
+    """Its groups and materials stayed for ever, those of named parts even when the others went."""
     into, tree = make(shapes.dumbbell(24, 10), "Into"), make(shapes.tube_tree(), "Tree")
     gold, steel = (bpy.data.materials.new(name) for name in ("Gold", "Steel"))
     tree.data.materials.append(gold)
@@ -58,6 +59,8 @@ def test_what_came_into_a_decomposed_object_is_ours(make, after):
     bpy.ops.reeb_parts.decompose(graph=False)
     activate(tree)
     bpy.ops.reeb_parts.decompose(graph=False, materials=True, seams=True, face_sets=True)
+    for part, name in zip(tree.data.reeb_parts.parts, named, strict=False):
+        part.name = name
     assert len(tree.data.reeb_parts.parts) > len(into.data.reeb_parts.parts)
     activate(into)
     tree.select_set(True)
@@ -127,6 +130,21 @@ def test_of_extruded_faces_no_material_of_a_part_is_kept(make, after):
     assert not any(polygon.material_index for polygon in obj.data.polygons)
     assert not any(edge.use_seam for edge in obj.data.edges)
     assert ".sculpt_face_set" not in obj.data.attributes
+
+
+def test_groups_of_the_user_that_hold_the_vertices_of_parts_stay(make):
+    """Without groups of ours, and where there is a second one."""
+    into, tree = make(shapes.dumbbell(24, 10), "Into"), make(shapes.tube_tree(), "Tree")
+    activate(tree)
+    bpy.ops.reeb_parts.decompose(graph=False)
+    tree.vertex_groups.new(name="Mine").add([*{v.index for v in tree.data.vertices if any(
+        entry.group == 0 for entry in v.groups)}], 1.0, "REPLACE")
+    tree.data.reeb_parts.parts[0].name = "Theirs"
+    activate(into)
+    tree.select_set(True)
+    bpy.ops.object.join()
+    bpy.ops.reeb_parts.clear()
+    assert into.vertex_groups.keys() == ["Theirs", "Mine"]
 
 
 def test_attributes_of_the_user_that_are_called_as_ours_stay(obj):
