@@ -12,6 +12,7 @@ import numpy as np
 from ...core.result.numbering import NumberedParts
 from .. import transaction
 from ..reading import mesh_arrays
+from . import face_attribute
 from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute
 
 _KEPT = f"{PREFIX}_seam"
@@ -22,7 +23,7 @@ _OURS, _BOTH = 1, 2
 
 def own(mesh: bpy.types.Mesh) -> np.ndarray:
     """Which edges are seams of the user, (e,) bool."""
-    return (_theirs(mesh) if is_kept(mesh, _KEPT, "has_seams")
+    return (_theirs(mesh) & ~_merged(mesh) if is_kept(mesh, _KEPT, "has_seams")
             else mesh_arrays.element_values(mesh, "edges", "use_seam"))
 
 
@@ -33,6 +34,27 @@ def _theirs(mesh: bpy.types.Mesh) -> np.ndarray:
     if kept.dtype == bool:  # by a version that kept the user's seams
         return now & kept
     return now & ((kept == 0) | (kept == _BOTH))
+
+
+def _merged(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Which edges are seams of ours that became one with an edge that was none, (e,) bool.
+
+    As Merge by Distance and Decimate do it: the edge is a seam then, but what was kept aside is that of the other one.
+    It lies where parts met; there users have no reason to mark a seam, as there is one. More faces may be joined ones.
+    """
+    numbers = face_attribute.find(mesh)
+    if numbers is None or len(mesh.polygons) >= mesh.reeb_parts.n_faces or mesh.attributes[_KEPT].data_type != "INT8":
+        return np.zeros(len(mesh.edges), bool)
+    kept = mesh_arrays.attribute_values(mesh.attributes[_KEPT])
+    return (kept == 0) & mesh_arrays.cut_edges(mesh, mesh_arrays.attribute_values(numbers))
+
+
+def claim_merged(mesh: bpy.types.Mesh) -> None:
+    """Let seams of ours that were merged with other edges be ours, as long as faces have the numbers from before."""
+    if is_kept(mesh, _KEPT, "has_seams") and (merged := _merged(mesh)).any():
+        transaction.keep_mesh(mesh)
+        kept = np.where(merged, _OURS, mesh_arrays.attribute_values(mesh.attributes[_KEPT]))
+        mesh_arrays.set_attribute_values(mesh.attributes[_KEPT], kept.astype(np.int8))
 
 
 def add(obj: bpy.types.Object) -> None:
@@ -51,6 +73,7 @@ def remove(obj: bpy.types.Object) -> None:
     transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
+    claim_merged(mesh)
     if result.has_seams and _KEPT in mesh.attributes:
         seams = _theirs(mesh)
         remove_attribute(mesh, _KEPT)

@@ -17,7 +17,7 @@ from ..errors import SceneError
 from ..graph import graph_finding, graph_objects, graph_removal
 from ..moving import armature
 from ..ours import orphan_outputs
-from ..outputs import colors, uv_map
+from ..outputs import colors, seams, uv_map
 from ..result import notes
 from ..showing import explode, hidden
 from . import succession
@@ -83,6 +83,7 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     transaction.keep_mesh(mesh)
     _keep_colors(mesh)
     orphan_outputs.remove(obj)
+    seams.claim_merged(obj.data)
     stored = succession.succeed(obj, outcome.shape, decomposition)
     numbered = stored.shown_parts()
     yield 0.1

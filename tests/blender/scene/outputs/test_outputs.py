@@ -342,6 +342,29 @@ def test_of_two_slots_with_one_material_faces_keep_theirs(owned):
         polygon.index % 3 for polygon in owned.data.polygons]
 
 
+@pytest.mark.parametrize("after", ["clear", "decompose", "seams"])
+@pytest.mark.parametrize("edit", ["remove_doubles", "decimate"])
+def test_seams_of_ours_that_are_merged_with_other_edges_are_ours(obj, edit, after):
+    """Blender makes a seam of edges of which one is, and keeps what the other one says: they stayed as the user's."""
+    bpy.ops.reeb_parts.decompose(seams=True)
+    n_faces = len(obj.data.polygons)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    getattr(bpy.ops.mesh, edit)(**{"threshold": 0.1} if edit == "remove_doubles" else {"ratio": 0.3})
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(obj.data.polygons) < n_faces
+    assert sum(edge.use_seam for edge in obj.data.edges) > 10
+    far = next(edge.index for edge in obj.data.edges if not edge.use_seam)
+    obj.data.edges[far].use_seam = True
+    if after == "decompose":
+        bpy.ops.reeb_parts.decompose(n_parts=2, seams=True)
+        bpy.ops.reeb_parts.decompose(n_parts=5, seams=True)
+    if after == "seams":
+        bpy.ops.reeb_parts.seams(remove=True)
+    bpy.ops.reeb_parts.clear()
+    assert [edge.index for edge in obj.data.edges if edge.use_seam] == [far]
+
+
 @pytest.mark.parametrize("after", ["detail", "decompose", "clear"])
 def test_seams_that_are_marked_by_hand_meanwhile_stay(owned, after):
     """A drag of Detail took them away, and brought those back that had been cleared."""
