@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays.hashes import hashed_rows
-from ..arrays.indexing import place_among, renumbered, spread_evenly
+from ..arrays.indexing import place_among, spread_evenly, taken
 from ..arrays.vectors import cross, inner_products, lengths, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
@@ -81,8 +81,8 @@ def find_standing(given: PolygonMesh) -> Standing | None:
     """
     mesh = given.triangles
     stands = _standing_faces(mesh, mesh.faces)
-    if stands is not None and stands.all():  # the tiles of a floor share places, and may share no vertices
-        stands = _standing_faces(mesh, _by_place(mesh))
+    if stands is not None and stands.all() and not np.array_equal(place := _by_place(mesh), mesh.faces):
+        stands = _standing_faces(mesh, place)  # the tiles of a floor share places, and may share no vertices
     if stands is None:
         return None
     is_standing = np.zeros(given.n_polygons, bool)
@@ -147,8 +147,9 @@ def _standing_faces(mesh: TriMesh, corner: np.ndarray) -> np.ndarray | None:
 
 
 def _by_place(mesh: TriMesh) -> np.ndarray:
-    """A number for each corner, (m, 3) int64, the same for those at one place."""
-    return renumbered(hashed_rows(mesh.vertices).view(np.int64))[1][mesh.faces]
+    """For each corner the first vertex at its place, (m, 3) int64."""
+    _, first, place = np.unique(hashed_rows(mesh.vertices), return_index=True, return_inverse=True)
+    return first[place.reshape(-1)][mesh.faces]
 
 
 def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:
@@ -165,11 +166,10 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
 
 def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     """Whether some faces are large beside others, and plain, or flat with the others on one side; both : (m,) bool."""
-    weight = np.repeat(mesh.face_area[mine], 3)
-    corners = mesh.corners[mine].reshape(-1, 3)
-    middle = weighted_sum(weight, corners) / weight.sum()
-    spread, axes = np.linalg.eigh(second_moments(corners - middle, weight))
-    own, its = (inner_products(mesh.corners[some].reshape(-1, 3) - middle, axes.T) for some in (mine, others))
+    (weight, points), (its_weight, its_points) = (_weighted(mesh, some) for some in (mine, others))
+    middle = weighted_sum(weight, points) / weight.sum()
+    spread, axes = np.linalg.eigh(second_moments(points - middle, weight))
+    own, its = inner_products(points - middle, axes.T), inner_products(its_points - middle, axes.T)
     sides, its_sides = np.ptp(own, axis=0), np.ptp(its, axis=0)
     few = mine.sum() <= FEW_FACES * (mine | others).sum()
     wide = np.sort(its_sides)[1:]
@@ -177,9 +177,16 @@ def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
         return True
     if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:]):
         return False
-    its_weight, thickness = np.repeat(mesh.face_area[others], 3), np.abs(own[:, 0]).max()
+    thickness = np.abs(own[:, 0]).max()
     beyond = min(its_weight[side * its[:, 0] > thickness].sum() for side in (-1, 1))
     return bool(its_sides[0] >= HIGH * np.sqrt(its_sides[1:].prod()) and beyond <= BELOW * its_weight.sum())
+
+
+def _weighted(mesh: TriMesh, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices of some faces, (k, 3), and the area of these around each, (k,); some : (m,) bool."""
+    weight = np.bincount(mesh.faces[some].ravel(), np.repeat(mesh.face_area[some], 3), mesh.n_vertices)
+    there = np.flatnonzero(weight)
+    return weight[there], taken(mesh.vertices, there)
 
 
 def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, high: float) -> bool:
@@ -193,7 +200,7 @@ def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, high: float)
     if shadow < SHADOW * area.sum() or weight.sum() < REST * area.sum():
         return False
     turned = inner_products(mesh.area_normals[mine], direction) < 0
-    height = np.ptp(inner_products(mesh.corners[others].reshape(-1, 3), direction / shadow))
+    height = np.ptp(inner_products(_weighted(mesh, others)[1], direction / shadow))
     if area[turned].sum() > TURNED * area.sum() or height < high:
         return False
     from scipy.spatial import cKDTree  # imported here for the reason that arrays.components gives
