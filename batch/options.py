@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ..core.options import add_parameters, dashed, limits_of, named_file, number
+from ..core.options import add_parameters, dashed, limits_of, named_file, named_folder, number
 from ..scene.saving.export import KINDS
 from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
 from .importers import IMPORTERS, WITHOUT_UNIT
@@ -43,18 +43,18 @@ def parser(description: str | None) -> argparse.ArgumentParser:
 
 
 def _add_files(files: argparse._ArgumentGroup) -> None:
-    files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
+    files.add_argument("--save", type=named_file, metavar="OUT.blend", help="the scene with the parts in it")
     files.add_argument("--json", type=named_file, metavar="OUT.json",
                        help="the JSON that also goes to standard output")
     files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
     files.add_argument("--check", action="store_true",
                        help="also say of each part in the JSON whether its piece, with holes closed, is sound")
-    files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
+    files.add_argument("--parts", type=named_folder, metavar="DIR", help="a file for each part, in a folder")
     files.add_argument("--parts-format", choices=[kind for kind, _, _ in KINDS], default="obj",
                        help="format of those files (default: %(default)s)")
-    files.add_argument("--threemf", type=Path, metavar="OUT.3mf",
+    files.add_argument("--threemf", type=named_file, metavar="OUT.3mf",
                        help="all parts, closed, for slicers: one assembly for each object, with names and colors")
-    files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
+    files.add_argument("--picture", type=named_file, metavar="OUT.png", help="a picture of the parts with the graph")
     files.add_argument("--picture-turn", type=number(-36000.0, 36000.0), default=0.0, metavar="DEGREES",
                        help="turn its camera, which looks at the front, around the objects (default: 0)")
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",

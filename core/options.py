@@ -144,8 +144,21 @@ def number(low: float, high: float = math.inf, kind: type[float] | type[int] = f
 def named_file(text: str) -> Path:
     """Read the name of a file that an option gives.
 
-    text : str. Returns Path. Raises ``argparse.ArgumentTypeError`` for -, of which argparse makes a sentence.
+    text : str. Returns Path. Raises ``argparse.ArgumentTypeError`` for - and for nothing, as of a variable that a
+    script has not set; argparse makes a sentence of it.
     """
     if text == "-":
         raise argparse.ArgumentTypeError("- is no file; standard output has the JSON in any case")
+    if not text:
+        raise argparse.ArgumentTypeError("the name of the file is empty")
+    return Path(text)
+
+
+def named_folder(text: str) -> Path:
+    """Read the name of a folder that an option gives; one without letters would be the working folder.
+
+    text : str. Returns Path. Raises ``argparse.ArgumentTypeError`` for nothing, of which argparse makes a sentence.
+    """
+    if not text:
+        raise argparse.ArgumentTypeError("the name of the folder is empty")
     return Path(text)

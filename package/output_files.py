@@ -62,9 +62,8 @@ def write_files(files: dict[Path, bytes], read: Path) -> None:
     moves: dict[Path, Path] = {}
     try:
         for path, data in files.items():
+            check_file(path, read)
             with as_output_error(path):
-                if path.exists() and (not path.is_file() or _is_same(path, read)):
-                    raise OutputFileError(Sentence("{path} is read, or is no file. Choose another name.", path=path))
                 target = Path(os.path.realpath(path))
                 target.parent.mkdir(parents=True, exist_ok=True)
                 place = hidden_place(target)
@@ -75,6 +74,20 @@ def write_files(files: dict[Path, bytes], read: Path) -> None:
         for place in moves:
             with suppress(OSError):
                 place.unlink(missing_ok=True)
+
+
+def check_file(path: Path, read: Path) -> None:
+    """Raise OutputFileError where ``write_files`` could not write a file: it is what the run reads, or a folder."""
+    with as_output_error(path):
+        if path.exists() and (not path.is_file() or _is_same(path, read)):
+            raise OutputFileError(Sentence("{path} is read, or is no file. Choose another name.", path=path))
+
+
+def check_folder(path: Path) -> None:
+    """Raise OutputFileError where files cannot be written in a folder, as it is a file."""
+    with as_output_error(path):
+        if path.exists() and not path.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
 
 
 def write_folder(folder: Path, files: dict[str, bytes]) -> None:

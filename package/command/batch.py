@@ -28,7 +28,7 @@ from ..batch.records import CRASH, DONE, OPEN, Settings, failure, is_done, recor
 from ..batch.sources import Source, find_sources, folder_of, is_gone, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
-from ..core.options import add_parameters, answer_text, chosen_parameters, number
+from ..core.options import add_parameters, answer_text, chosen_parameters, named_folder, number
 from ..core.sentence import Sentence
 from ..model_files import BY_BLENDER, formats
 from ..output_files import SharedFolder, as_output_error
@@ -56,8 +56,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         'them, patterns such as "*.obj" and "**/*.ply", and files')
     parser.add_argument("--list", type=Path, action="append", default=[], metavar="FILE",
                         help="a file that lists more of them, one a line")
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
-    parser.add_argument("--root", type=Path, metavar="DIR", help="folder below which models have their names; "
+    parser.add_argument("--out", type=named_folder, required=True, metavar="DIR", help="folder for the results")
+    parser.add_argument("--root", type=named_folder, metavar="DIR", help="folder below which models have their names; "
                         "without it that of MODELS, the innermost one that holds all of them")
     parser.add_argument("--blender", metavar="PATH", help="the Blender that reads " + ", ".join(BY_BLENDER))
     files = parser.add_argument_group("files for each model")

@@ -19,13 +19,13 @@ from pathlib import Path
 
 from ..core.file_names import readable, spelled
 from ..core.memory import keep_freed_memory
-from ..core.options import add_parameters, chosen_parameters, may_be_answer, named_file, number
+from ..core.options import add_parameters, chosen_parameters, may_be_answer, named_file, named_folder, number
 from ..core.progress import said_in_steps
 from ..core.result.decomposition import Decomposition
 from ..core.sentence import Sentence
 from ..meshes import decompose
 from ..model_files import BY_BLENDER, Model, read_model
-from ..output_files import OutputFileError, write_files
+from ..output_files import OutputFileError, check_file, check_folder, write_files
 from ..outputs import (
     COLORED,
     LABELS,
@@ -54,7 +54,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                        help=f"the part of each face, from 0 ({', '.join(LABELS)})")
     files.add_argument("--colored", type=file_of(COLORED), metavar="OUT.ply",
                        help=f"the model in the colors of its parts ({', '.join(COLORED)})")
-    files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
+    files.add_argument("--parts", type=named_folder, metavar="DIR", help="a file for each part, in a folder")
     files.add_argument("--parts-format", choices=PARTS, default="obj",
                        help="format of those files (default: %(default)s)")
     files.add_argument("--picture", type=file_of((".png",)), metavar="OUT.png",
@@ -92,6 +92,7 @@ def _run(options: argparse.Namespace) -> str:
     parameters, notes = chosen_parameters(options)
     for note in notes:
         say(note)
+    _check_places(options)
     keep_freed_memory()
     with _unheard():
         model = read_model(options.model, options.blender)
@@ -100,6 +101,17 @@ def _run(options: argparse.Namespace) -> str:
     answer = _made(options, model, result, files)
     write_files(files.data, options.model)
     return answer.decode()
+
+
+def _check_places(options: argparse.Namespace) -> None:
+    """Raise OutputFileError where a file cannot be written, before a large model is decomposed for nothing."""
+    files = _Files()
+    for path in (options.labels, options.colored, options.picture, options.json):
+        if path:
+            check_file(path, options.model)
+            files.add(path, b"")
+    if options.parts:
+        check_folder(options.parts)
 
 
 class _Files:
@@ -160,8 +172,9 @@ def file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:
     """What reads the name of a file of some kinds; argparse turns the error into a sentence."""
 
     def file(text: str) -> Path:
-        if Path(text).suffix.lower() not in kinds:
+        path = named_file(text)
+        if path.suffix.lower() not in kinds:
             raise argparse.ArgumentTypeError(f"{text} must end in {' or '.join(kinds)}")
-        return Path(text)
+        return path
 
     return file

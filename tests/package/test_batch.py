@@ -347,6 +347,7 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
 
 @pytest.mark.parametrize(("arguments", "status", "words"), [
     (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
+    (["--out", ""], 2, "argument --out: the name of the folder is empty"),
     (["--out", "/proc"], 1, "/proc could not be written: "),
     (["--out", "OUT", "--workers", "0"], 2, "must be a whole number, 1 or more, not 0"),
     (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number from 0 to 100000, not nan"),

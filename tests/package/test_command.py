@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import trimesh
 from reeb_parts.command import commands
+from reeb_parts.output_files import OutputFileError
 
 from core import decompose
 
@@ -127,6 +128,7 @@ def test_it_reads_its_options_without_docstrings(monkeypatch):
     (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x.npy"], "would be written twice"),
     (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x/../x.npy"], "would be written twice"),
     (["MODEL", "--json", "/proc/none/x.json"], "could not be written"),
+    (["MODEL", "--labels", "OUT/x.npy", "--parts", "MODEL"], "could not be written: Not a directory"),
     (["/dev/null"], "reeb-parts: /dev/null is no file but a pipe or a device: write the model to a file first."),
 ])
 def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, model, reeb_parts_command, tmp_path):
@@ -285,6 +287,26 @@ def test_standard_output_is_no_file(model, reeb_parts_command, tmp_path):
     done = reeb_parts_command("decompose", model, "--json", "-", cwd=tmp_path)
     assert (done.returncode, list(tmp_path.iterdir())) == (2, [])
     assert done.stderr.endswith("--json: - is no file; standard output has the JSON in any case\n")
+
+
+@pytest.mark.parametrize("option", ["--json", "--labels", "--colored", "--parts", "--picture"])
+def test_a_name_without_letters_is_refused(option, capsys):
+    """As of a variable that a script has not set: parts were written to the working folder."""
+    with pytest.raises(SystemExit):
+        commands.parse(["decompose", "model.off", option, ""])
+    kind = "folder" if option == "--parts" else "file"
+    assert capsys.readouterr().err.endswith(f"argument {option}: the name of the {kind} is empty\n")
+
+
+@pytest.mark.parametrize("outputs", [
+    {"json": "."}, {"json": "model.off"}, {"labels": "x.npy", "json": "x.npy"}, {"parts": "model.off"},
+])
+def test_files_that_cannot_be_written_are_known_before_anything_is_computed(outputs, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("model.off").write_text("no model")  # which would be said of what is read
+    options = [word for name, place in outputs.items() for word in (f"--{name}", place)]
+    with pytest.raises(OutputFileError):
+        commands.decompose.run(commands.parse(["decompose", "model.off", *options]))
 
 
 @pytest.mark.parametrize("size", ["15", "4097", "-1", "nan", "640x480"])

@@ -380,6 +380,7 @@ def test_nohup_has_it_go_on(model, tmp_path, tmp_path_factory):
 @unix
 def test_standard_output_and_pipes_are_no_files(run, model, tmp_path):
     assert run(model, "--json", "-").status == 2
+    assert run(model, "--parts", "").status == 2  # as of a variable that is not set: it would be the working folder
     ended = run("/dev/null", "--json", tmp_path / "x.json")
     assert (ended.status, ended.out) == (1, "")
     assert "/dev/null is no file but a pipe or a device: write the model to a file first." in ended.err
