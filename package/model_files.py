@@ -197,6 +197,8 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
             except (KeyError, ValueError) as error:  # there are none, or they are Python's own objects
                 raise ReebError(_NO_ARRAYS) from error
     points, (corner, sizes) = positions(vertices).astype(np.float64), corners(faces)
+    if points.shape[1:] != (3,):
+        raise ReebError(Sentence("vertices must have shape (n, 3), not {shape}.", shape=points.shape))
     if few := int((sizes < 3).sum()):
         raise ReebError(Sentence("{n} {n:face has|faces have} fewer than three corners.", n=few))
     triangles, polygon = fans(corner, sizes)

@@ -228,6 +228,7 @@ def test_quads_of_arrays_are_one_face_each(tmp_path):
 @pytest.mark.parametrize(("arrays", "said"), [
     ({"faces": FACES + 0.4}, "Face indices must be whole numbers"),
     ({"vertices": VERTICES + 1j}, "Vertices must be rows of three numbers"),
+    ({"vertices": VERTICES[:, :2]}, r"vertices must have shape \(n, 3\), not \(8, 2\)"),
     ({"vertices": None}, "it has no arrays of numbers vertices and faces"),
     ({"faces": None}, "it has no arrays of numbers vertices and faces"),
     ({"faces": np.array([[0, 1, 2], [1, 2]], object)}, "it has no arrays of numbers vertices and faces"),
