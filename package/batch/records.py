@@ -22,6 +22,7 @@ from ..output_files import write_folder
 
 FORMAT = 1  # version of what a record holds
 RECORD = "record.json"
+KEYS = {"format", "name", "status", "reason", "settings", "digest", "files", "model", "parts"}  # of each record
 #: What became of a model. The first three follow from the model: they would come out the same again.
 DONE, REFUSED, UNREADABLE = "done", "refused", "unreadable"
 READER, ERROR, MEMORY, TIME, CRASH, OPEN = "reader", "error", "memory", "time", "crash", "open"
@@ -92,22 +93,25 @@ def files_of(path: Path) -> list[Path]:
     return [path, *(file for name in names if (file := path.parent / name).is_file())]
 
 
-def read_record(folder: Path) -> dict[str, Any] | None:
-    """The record in a folder; None if there is none."""
+def read_record(folder: Path, name: str | None = None) -> dict[str, Any] | None:
+    """The record in a folder; None if there is none, or none of the model of that name.
+
+    Whoever renames a model, and the folder of its results with it, has a record of the former name there.
+    """
     try:
         record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    known = isinstance(record, dict) and record.get("format") == FORMAT and isinstance(record.get("files"), dict)
-    return record if known else None
+    known = isinstance(record, dict) and record.get("format") == FORMAT and record.keys() >= KEYS
+    return record if known and isinstance(record["files"], dict) and name in (None, record["name"]) else None
 
 
-def is_done(path: Path, folder: Path, settings: Settings, retry: bool = False) -> bool:
+def is_done(path: Path, folder: Path, settings: Settings, retry: bool = False, name: str | None = None) -> bool:
     """Whether the results of a model are there, all of them, of these bytes and settings.
 
-    retry : bool, whether a model that failed is done only if it was decomposed.
+    retry : bool, whether a model that failed is done only if it was decomposed. name : str, of the model in the batch.
     """
-    record = read_record(folder)
+    record = read_record(folder, name)
     if record is None or record["status"] not in (FINAL[:1] if retry else FINAL):
         return False
     if record["settings"] != settings.digest or record["digest"] == "":
@@ -133,7 +137,7 @@ def write_record(job: dict[str, Any], record: dict[str, Any], files: dict[str, b
 
 def record_of(name: str, folder: Path, settings: str) -> dict[str, Any]:
     """The record of a model, given its folder and the digest of the settings; one that says so if it is still open."""
-    record = read_record(folder)
+    record = read_record(folder, name)
     if record is None:
         return failure(name, OPEN, "It was not reached.", settings)
     if record["settings"] != settings:  # of a run before, or of one at the same time

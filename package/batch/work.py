@@ -62,7 +62,7 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
     start = time.perf_counter()
     settings = Settings.from_dict(job["settings"])
     path, name = Path(job["path"]), job["name"]
-    if is_done(path, Path(job["folder"]), settings, job["retry"]):
+    if is_done(path, Path(job["folder"]), settings, job["retry"], name):
         return {"status": DONE, "reason": "", "seconds": round(time.perf_counter() - start, 4), "kept": True}
     digest = ""
     try:

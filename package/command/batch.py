@@ -170,7 +170,7 @@ class _Batch:
 
         with tqdm(self.sources, desc="looking", unit="model", disable=None, leave=False) as looking:
             waiting = [source for source in looking
-                       if not is_done(source.path, self.folder(source), self.settings, self.options.retry)]
+                       if not is_done(source.path, self.folder(source), self.settings, self.options.retry, source.name)]
         self.kept = len(self.sources) - len(waiting)
         if self.kept:
             say(f"{self.kept} of {_models(len(self.sources))} {'is' if self.kept == 1 else 'are'} done already.")
@@ -222,7 +222,7 @@ class _Batch:
     def _jobs(self, sources: list[Source], progress: Any) -> Iterator[dict[str, Any]]:
         """What the workers are given of some models, without those that another run has done by the time of each."""
         for source in sources:
-            if is_done(source.path, self.folder(source), self.settings, self.options.retry):
+            if is_done(source.path, self.folder(source), self.settings, self.options.retry, source.name):
                 self.kept += 1
                 progress.update()
             else:

@@ -257,6 +257,11 @@ def test_other_bytes_parameters_or_missing_files_are_not_done(batch, models, tmp
     assert not is_done(model, folder, settings)
     shutil.copy(batch[0] / "models" / "tree.ply" / "colored.ply", folder)
     assert is_done(model, folder, settings)
+    assert is_done(model, folder, settings, name="tree.ply")
+    assert not is_done(model, folder, settings, name="shrub.ply")  # both were renamed: the tables had the former name
+    (folder / "record.json").write_text('{"format": 1, "files": {}}')  # which ended the whole batch
+    assert not is_done(model, folder, settings)
+    shutil.copy(batch[0] / "models" / "tree.ply" / "record.json", folder)
     model.write_bytes(model.read_bytes() + b"\n")
     assert not is_done(model, folder, settings)
 
