@@ -169,6 +169,8 @@ class ReebPartsMade(bpy.types.PropertyGroup, Settled):
         "looks so: at 0 the mesh is as it was. Can be animated",
     )
 
+    settled: StringProperty(default='{"explode": 0.0}', options={"HIDDEN"})  # before the slider is first moved
+
     def watched(self) -> dict[str, Any]:
         return {"explode": self.explode}
 

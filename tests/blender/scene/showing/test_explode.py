@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The explode slider: every part moves as one, the mesh stays as it is, 0 and Clear leave nothing."""
 
+import importlib
+
 import bpy
 import numpy as np
 import pytest
@@ -236,3 +238,20 @@ def test_nobody_is_told_of_our_own_modifier(obj):
     obj.reeb_parts_made.explode = 1.0
     bpy.ops.reeb_parts.decompose()
     assert obj.data.reeb_parts.notes == notes
+
+
+def test_a_first_drag_that_fails_goes_back(obj, package, monkeypatch):
+    """The slider stayed where it had been moved to, and nothing had moved: nothing was remembered before."""
+    bpy.ops.reeb_parts.decompose()
+    explode = importlib.import_module(f"{package}.scene.showing.explode")
+
+    def fail(_):
+        raise MemoryError
+
+    with monkeypatch.context() as patched:
+        patched.setattr(explode, "_node_group", fail)
+        obj.reeb_parts_made.explode = 0.5
+    assert obj.reeb_parts_made.explode == 0.0
+    assert not obj.modifiers
+    obj.reeb_parts_made.explode = 0.5
+    assert obj.modifiers
