@@ -124,7 +124,7 @@ def page(out: Path, parts: list[dict[str, Any]]) -> str:
     """A page with a picture of each part in its model, the one that was asked for first."""
     paths = {row["name"]: row["path"] for row in _rows(out / "models.parquet", ["name", "path"])}
     cards = "".join(
-        f"<figure>{_image(out, paths[part['model']], part)}<figcaption><b>{html.escape(part['model'])}</b><br>"
+        f"<figure>{_image(out, paths.get(part['model'], ''), part)}<figcaption><b>{html.escape(part['model'])}</b><br>"
         f"{html.escape(part['name'])}, {part['share']:.1%} of the area<br>distance {part['distance']:.2f}</figcaption>"
         "</figure>" for part in parts)
     title = html.escape(f"Parts like {parts[0]['name']} of {parts[0]['model']}")
@@ -133,7 +133,10 @@ def page(out: Path, parts: list[dict[str, Any]]) -> str:
 
 
 def _image(out: Path, path: str, part: dict[str, Any]) -> str:
-    """A picture of a part as an element of the page; the thumbnail of its model where that has gone or changed."""
+    """A picture of a part as an element of the page; the thumbnail of its model where that has gone or changed.
+
+    path : str, of the model; empty where the tables are not of one run, as after a power failure between the two.
+    """
     folder, place = folder_of(out, part["model"]), Path(spelled(path))
     try:
         record = read_record(folder)

@@ -174,6 +174,13 @@ def test_a_model_that_has_changed_is_shown_as_it_was(models, tmp_path):
     assert base64.b64encode((folder / "thumbnail.png").read_bytes()).decode() in shown
 
 
+def test_a_model_that_only_one_table_has_costs_no_page(batch, tmp_path):
+    """As after a power failure between the two; it was a traceback."""
+    parquet.write_table(MODELS.empty_table(), tmp_path / "models.parquet")
+    found = similar_parts(batch[0], "tree.ply", 1, 3, False)
+    assert similar.page(tmp_path, found).count("<figure>") == 4
+
+
 @pytest.mark.parametrize(("part", "status", "words"), [
     ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply:²", 2, "must be the name of a model"),
 ])
