@@ -75,7 +75,7 @@ def simplify(
     topology: ReebTopology,
     min_area: float,
     min_height: float,
-    level_height: np.ndarray | None = None,
+    level_height: np.ndarray,
 ) -> ReebTopology:
     """Cancel leaves that are small or flat, the one of least area first.
 
@@ -93,9 +93,9 @@ def simplify(
         Leaves of less area are cancelled; share of the area of the surface, 0..1.
     min_height : float
         Leaves of less height, the sum over the levels that they cross, are cancelled; in the unit of ``level_height``.
-    level_height : (K,) float64, optional
-        Height that each level adds to a leaf that crosses it, 1 without: then heights are numbers of levels. Where the
-        field hardly changes, levels of an equalized field lie close together, and a leaf of many levels may be flat.
+    level_height : (K,) float64
+        Height that each level adds to a leaf that crosses it. Where the field hardly changes, levels of an equalized
+        field lie close together, and a leaf of many levels may be flat.
 
     Returns
     -------
@@ -106,8 +106,6 @@ def simplify(
     -----
     O(arcs log arcs) in Python, the rest whole arrays.
     """
-    if level_height is None:
-        level_height = np.ones(len(sets.levels))
     work = _WorkGraph(sets, topology, level_height, (min_area * sets.mesh.area, min_height))
     work.cancel_leaves()
     return work.result()

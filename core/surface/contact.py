@@ -92,7 +92,12 @@ class SurfacePoints:
 def diameter(position: np.ndarray, area: np.ndarray) -> float:
     """Length of a rod that is spread as far about its middle as some points of a surface, (s, 3) and (s,)."""
     middle = weighted_sum(area, position) / area.sum()
-    return float(np.sqrt(12.0 * weighted_sum(area, ((position - middle) ** 2).sum(axis=1)) / area.sum()))
+    return float(_rod_length(weighted_sum(area, ((position - middle) ** 2).sum(axis=1)) / area.sum()))
+
+
+def _rod_length(spread: np.ndarray) -> np.ndarray:
+    """Lengths of rods, by the mean square of the distance of their points from the middle; (k,) float64 or one."""
+    return np.sqrt(12.0 * spread)
 
 
 def near_pairs(points: SurfacePoints, label: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
@@ -327,4 +332,4 @@ def _diameters(moments: np.ndarray) -> np.ndarray:
     """``diameter`` of things, (k,) float64, by area, area times place and area times squared place, (k, 5)."""
     area, *place, square = moments.T
     area = np.maximum(area, np.finfo(float).tiny)
-    return np.sqrt(12 * np.maximum(square / area - ((np.stack(place) / area) ** 2).sum(axis=0), 0.0))
+    return _rod_length(np.maximum(square / area - ((np.stack(place) / area) ** 2).sum(axis=0), 0.0))

@@ -90,8 +90,8 @@ def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 
 
-def part_colors(count: int, neighbors: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
-    """Choose a color for each part, in the order of the parts.
+def part_colors(count: int, neighbors: np.ndarray) -> np.ndarray:
+    """Choose a color of PALETTE for each part, in the order of the parts.
 
     Parameters
     ----------
@@ -99,16 +99,13 @@ def part_colors(count: int, neighbors: np.ndarray, palette: np.ndarray = PALETTE
         Number of parts.
     neighbors : (e, 2) int64
         Pairs of parts that touch.
-    palette : (c, 3) float64
-        Colors to choose from, sRGB, 0..1.
 
     Returns
     -------
     colors : (count, 3) float64
-        sRGB, 0..1. The first c parts have c different colors unless a later part touches all of them. Later parts
-        repeat them, but parts that touch have different colors unless more than c of them touch each other, or nearly.
+        sRGB, 0..1.
     """
-    return palette[chosen_colors(count, neighbors, palette)]
+    return PALETTE[chosen_colors(count, neighbors, PALETTE)]
 
 
 def chosen_colors(
@@ -134,7 +131,9 @@ def chosen_colors(
     Returns
     -------
     chosen : (count,) int64
-        Place in the palette, 0..c-1.
+        Place in the palette, 0..c-1. The first c parts have c different colors unless a later part touches all of them.
+        Later parts repeat them, but parts that touch have different colors unless more than c of them touch each other,
+        or nearly.
     """
     apart = distance_matrix(palette)
     chosen = full(count, -1)

@@ -55,9 +55,7 @@ class Hull:
         return float((a * cross(b, c)).sum()) / 6
 
 
-def part_hulls(
-    table: CornerTable, labels: np.ndarray, per_part: int = 1, most_corners: int = MOST_CORNERS
-) -> list[tuple[Hull, ...]]:
+def part_hulls(table: CornerTable, labels: np.ndarray, per_part: int = 1) -> list[tuple[Hull, ...]]:
     """Make the convex hull of each part, or several that fit it better.
 
     Parameters
@@ -67,15 +65,13 @@ def part_hulls(
     labels : (p,) int64
         Part of each face, 0..count-1, all in use.
     per_part : int
-        How many hulls a part has at most. All of the part lies in one of them, before ``most_corners``.
-    most_corners : int
-        A hull with more corners is replaced by that of the corners that lie farthest in so many directions, spread
-        evenly; it lies inside.
+        How many hulls a part has at most.
 
     Returns
     -------
     hulls : list of tuple of Hull
-        One or several for each part. A part that lies in a plane, on a line or in a point has a thin one.
+        One or several for each part, in which all of it lies, but for what MOST_CORNERS leaves out. A part that lies in
+        a plane, on a line or in a point has a thin one.
     """
     size = table.diagonal or 1.0
     closed, part = _closed(table, labels)
@@ -85,7 +81,7 @@ def part_hulls(
     hulls = []
     for triangles, volume in zip(groups, volumes.tolist(), strict=True):
         pieces = _divided(_Surface(closed.points, triangles).used(), per_part, volume)
-        hulls.append(tuple(_hull(_solid(piece.points, size), most_corners) for piece in pieces))
+        hulls.append(tuple(_hull(_solid(piece.points, size)) for piece in pieces))
     return hulls
 
 
@@ -279,14 +275,14 @@ def _growing(slabs: list[np.ndarray]) -> np.ndarray:
     return np.array(volumes)
 
 
-def _hull(points: np.ndarray, most: int) -> Hull:
-    """The hull of points that do not lie in a plane."""
+def _hull(points: np.ndarray) -> Hull:
+    """The hull of points that do not lie in a plane; of more than MOST_CORNERS corners, that of the outermost."""
     middle = points.mean(axis=0)
     scale = np.abs(points - middle).max()
     found = ConvexHull((points - middle) / scale)
-    if len(found.vertices) > most:
+    if len(found.vertices) > MOST_CORNERS:
         corners = points[found.vertices]
-        return _hull(corners[_outermost(_as_round(corners), most)], most)
+        return _hull(corners[_outermost(_as_round(corners))])
     used, triangles = renumbered(found.simplices)
     a, b, c = points[found.simplices].transpose(1, 0, 2)
     inward = (cross(b - a, c - a) * found.equations[:, :3]).sum(axis=1) < 0
@@ -304,15 +300,15 @@ def _as_round(points: np.ndarray) -> np.ndarray:
     return offset @ (axes / np.sqrt(spread.clip(1e-12 * spread.max()))) @ axes.T
 
 
-def _outermost(corners: np.ndarray, most: int) -> np.ndarray:
-    """So many of the corners of a hull, (k, 3), whose own hull has nearly its volume: (most,) int64 or fewer.
+def _outermost(corners: np.ndarray) -> np.ndarray:
+    """MOST_CORNERS of the corners of a hull, (k, 3), or fewer, whose own hull has nearly its volume; their places.
 
     Half of them are outermost in directions that are spread evenly, of which several may have the same corner. Then,
     again and again, those follow that are farthest outside the hull of those found, a quarter of what lacks at a time.
     """
-    kept = np.unique((_directions(most // 2) @ corners.T).argmax(axis=1))
-    while len(kept) < most and len(beyond := _beyond(corners, kept)):
-        kept = np.append(kept, beyond[: -(-(most - len(kept)) // 4)])
+    kept = np.unique((_directions(MOST_CORNERS // 2) @ corners.T).argmax(axis=1))
+    while len(kept) < MOST_CORNERS and len(beyond := _beyond(corners, kept)):
+        kept = np.append(kept, beyond[: -(-(MOST_CORNERS - len(kept)) // 4)])
     return kept
 
 

@@ -66,9 +66,7 @@ class Weights:
         return every
 
 
-def smooth_weights(
-    table: CornerTable, labels: np.ndarray, bones: Bones, ways: Sequence[tuple[float, float]] = WAYS
-) -> Weights:
+def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weights:
     """Find weights that change smoothly across each joint.
 
     A joint divides the parts of a tree of bones into those beyond, which are those of its bone and of the bones that
@@ -86,16 +84,13 @@ def smooth_weights(
         Bone of each face, 0..count-1.
     bones : Bones
         In the coordinates of the table.
-    ways : sequence of (float, float)
-        How far weights change on either side of a joint, in its radii, and how far a fifth bone counts, 0..1: what is
-        tried in turn until no face is turned over.
 
     Returns
     -------
     weights : Weights
     """
     table, first = table.joined()
-    tries = _tries(table, labels, bones, ways)
+    tries = _tries(table, labels, bones)
     best, fewest = next(tries)
     while fewest and (found := next(tries, None)):
         best, fewest = min((best, fewest), found, key=itemgetter(1))
@@ -182,12 +177,10 @@ def _joints(table: CornerTable, labels: np.ndarray, bones: Bones, reach: float) 
     return joints
 
 
-def _tries(
-    table: CornerTable, labels: np.ndarray, bones: Bones, ways: Sequence[tuple[float, float]]
-) -> Iterator[tuple[Weights, int]]:
-    """Weights of all ways and rounds, each with how many faces they turn over."""
+def _tries(table: CornerTable, labels: np.ndarray, bones: Bones) -> Iterator[tuple[Weights, int]]:
+    """Weights of all WAYS and rounds, each with how many faces they turn over."""
     laplacian = ConformalFactor.of(table).laplacian
-    for reach, fifth in ways:
+    for reach, fifth in WAYS:
         joints, stiffness = _joints(table, labels, bones, reach), np.zeros(table.n_faces)
         odds, stale = [_NOWHERE] * len(bones.parent), joints
         fewest, since = np.inf, 0
@@ -248,21 +241,20 @@ def _turned(table: CornerTable, weights: Weights, bones: Bones) -> np.ndarray:
     return turned
 
 
-def limited(mass: np.ndarray, fifth: float = 0.0) -> Weights:
+def limited(mass: np.ndarray) -> Weights:
     """Keep the four largest weights of each vertex.
 
-    mass : (n, count) float64, 0 or more; what share of a vertex each bone moves, in any unit. fifth : the share of the
-    fifth largest that is taken from each of them; of four that are hardly larger, little less than all. Returns
-    Weights.
+    mass : (n, count) float64, 0 or more; what share of a vertex each bone moves, in any unit. Returns Weights.
     """
     vertex, bone = np.nonzero(mass)
-    return _limited(vertex, bone, mass[vertex, bone], len(mass), fifth)
+    return _limited(vertex, bone, mass[vertex, bone], len(mass), 0.0)
 
 
 def _limited(vertex: np.ndarray, bone: np.ndarray, mass: np.ndarray, n: int, fifth: float) -> Weights:
     """What ``limited`` returns, of what is not 0; of equal weights it keeps those of the first bones.
 
-    vertex, bone : (k,) int64, no pair twice. mass : (k,) float64. n : how many vertices there are.
+    vertex, bone : (k,) int64, no pair twice. mass : (k,) float64. n : how many vertices there are. fifth : the share of
+    the fifth largest that is taken from each of them; of four that are hardly larger, little less than all.
     """
     if fifth:
         order, rank = _ranked(vertex, bone, mass)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from heights import counted
 
 from core.arrays.components import components
 from core.field.agd import ScalarField
@@ -45,13 +46,13 @@ def test_by_hand():
     # 0 1 0 1 0: areas of the pieces 1/2, 1, 1, 1, 1/2. The valleys at the ends are leaves of
     # hills with another valley beside: the smaller ones go, and a strip with one valley is left.
     sets = strip([0, 1, 0, 1, 0])
-    done = simplify(sets, reeb_topology(sets), 0.2, 0)  # a leaf below 0.8 of 4 goes
+    done = simplify(sets, reeb_topology(sets), 0.2, 0, counted(sets))  # a leaf below 0.8 of 4 goes
     assert len(done.arcs) == 2
     assert done.n_nodes == 3
     graph = reeb_graph(sets, done)
     assert sorted(graph.node_position[:, 0]) == pytest.approx([1, 2, 3])
     # Above the area of everything else, the last hill and the last valley stay all the same.
-    last = simplify(sets, reeb_topology(sets), 1.0, 0)
+    last = simplify(sets, reeb_topology(sets), 1.0, 0, counted(sets))
     assert (last.n_nodes, len(last.arcs)) == (2, 1)
 
 
@@ -65,7 +66,7 @@ def test_an_arc_put_together_from_two_is_as_long_as_both():
     topology = reeb_topology(sets)
     assert sorted(np.bincount(topology.contour_arc).tolist()) == [2, 3, 3, 4, 12]
     # With leaves of fewer than five levels gone, the twig is no more and the leg of seven stays.
-    done = simplify(sets, topology, 0.0, 5)
+    done = simplify(sets, topology, 0.0, 5, counted(sets))
     assert sorted(np.bincount(done.contour_arc[done.contour_arc >= 0]).tolist()) == [3, 7, 12]
     assert done.n_nodes == 4
     # The same where each level is half as high: the leg is as high as its two arcs together.
@@ -76,7 +77,7 @@ def test_an_arc_put_together_from_two_is_as_long_as_both():
 def test_nothing_below_the_limits_nothing_changes():
     sets = noisy(1, 0)
     topology = reeb_topology(sets)
-    same = simplify(sets, topology, 0.0, 0)
+    same = simplify(sets, topology, 0.0, 0, counted(sets))
     for name in ("piece_node", "piece_arc", "contour_arc", "arcs"):
         np.testing.assert_array_equal(getattr(same, name), getattr(topology, name))
 
@@ -89,7 +90,7 @@ def made(request):
     genus, seed = request.param
     sets = noisy(genus, seed)
     before = reeb_topology(sets)
-    return genus, sets, before, simplify(sets, before, 0.01, 2)
+    return genus, sets, before, simplify(sets, before, 0.01, 2, counted(sets))
 
 
 def test_there_was_something_to_do(made):
@@ -165,14 +166,14 @@ def test_contours_end_where_their_arc_says(made):
 def test_more_simplified_is_a_coarser_graph():
     sets = noisy(2, 1)
     topology = reeb_topology(sets)
-    sizes = [len(simplify(sets, topology, area, 1).arcs) for area in (0.0, 0.001, 0.01, 0.05, 0.3)]
+    sizes = [len(simplify(sets, topology, area, 1, counted(sets)).arcs) for area in (0.0, 0.001, 0.01, 0.05, 0.3)]
     assert sizes == sorted(sizes, reverse=True)
     assert sizes[0] > sizes[-1]
 
 
 def test_a_graph_of_one_node_stays():
     sets = cut_at_levels(TriMesh(*shapes.icosphere(1)), np.zeros(42), np.empty(0))
-    done = simplify(sets, reeb_topology(sets), 0.1, 1)
+    done = simplify(sets, reeb_topology(sets), 0.1, 1, counted(sets))
     assert done.n_nodes == 1
     assert len(done.arcs) == 0
     assert done.piece_node.tolist() == [0]
@@ -188,7 +189,7 @@ def test_the_height_of_a_level_is_in_units_of_the_largest_agd():
 
 def test_the_areas_of_what_is_left_add_up_to_the_surface(made):
     _, sets, before, _ = made
-    work = _WorkGraph(sets, before, np.ones(len(sets.levels)), (0.01 * sets.mesh.area, 2.0))
+    work = _WorkGraph(sets, before, counted(sets), (0.01 * sets.mesh.area, 2.0))
     work.cancel_leaves()
     assert None in work.arcs
     left = [area for place, area in enumerate(work.area) if work.parent[place] == place]
@@ -198,15 +199,15 @@ def test_the_areas_of_what_is_left_add_up_to_the_surface(made):
 def test_a_leaf_just_as_large_as_the_limit_stays():
     sets = strip([0, 1, 0, 1, 0])  # of 4, its ends have an area of 1/2 each
     topology = reeb_topology(sets)
-    assert len(simplify(sets, topology, 0.125, 0).arcs) == len(topology.arcs)
-    assert len(simplify(sets, topology, 0.126, 0).arcs) < len(topology.arcs)
+    assert len(simplify(sets, topology, 0.125, 0, counted(sets)).arcs) == len(topology.arcs)
+    assert len(simplify(sets, topology, 0.126, 0, counted(sets)).arcs) < len(topology.arcs)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_node_that_took_in_a_leaf_stays_between_its_arcs(seed):
     """The leaf may reach above the arc that goes on from the node, and the node's value be that of its saddle there."""
     sets = noisy(1, seed, noise=0.6)
-    graph = reeb_graph(sets, simplify(sets, reeb_topology(sets), 0.02 * sets.mesh.area, 0.05))
+    graph = reeb_graph(sets, simplify(sets, reeb_topology(sets), 0.02 * sets.mesh.area, 0.05, counted(sets)))
     lower, upper = graph.node_value[graph.arcs].T
     first, last = graph.point_value[graph.arc_points[:-1]], graph.point_value[graph.arc_points[1:] - 1]
     assert (lower <= first).all()

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 import shapes
-from heights import HEIGHTS
+from heights import HEIGHTS, counted
 
 from core.arrays.components import components
 from core.cuts.berretti.fusion import FusionGraph, fuse_small, fuse_weakest
@@ -22,7 +22,7 @@ LEAST = 1e-9  # a threshold at which no region is small
 @pytest.fixture(params=HEIGHTS)
 def made(request):
     sets = HEIGHTS[request.param]()
-    topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
+    topology = simplify(sets, reeb_topology(sets), 0.0025, 1, counted(sets))
     return sets, *fuse_equal_adjacency(sets, *regions_between_events(sets, topology))
 
 

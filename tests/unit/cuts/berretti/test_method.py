@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from heights import counted
 
 from core.arrays.components import components
 from core.cuts.berretti.boundary_search import concavity
@@ -22,7 +23,7 @@ PAPER = Parameters.preset("Berretti 2009")
 def candidates(shape, direction, **changes):
     values = shape.vertices @ np.asarray(direction, float)
     sets = cut_at_levels(TriMesh(*shape), (values - values.min()) / np.ptp(values), uniform_levels(50))
-    topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
+    topology = simplify(sets, reeb_topology(sets), 0.0025, 1, counted(sets))
     parameters = Parameters.preset("Berretti 2009", **changes)
     found = berretti_candidates(sets, topology, parameters)
     return sets, topology, found.element_candidate, found.hierarchy
@@ -79,7 +80,7 @@ def test_concavity_pulls_cuts_into_creases():
     shape = shapes.surface_of_genus(2)
     height = shape.vertices @ (0.2, 1.0, 0.1)
     sets = cut_at_levels(TriMesh(*shape), (height - height.min()) / np.ptp(height), uniform_levels(50))
-    topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
+    topology = simplify(sets, reeb_topology(sets), 0.0025, 1, counted(sets))
     curvature = k_min(sets.mesh)
 
     def cuts(alpha):

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 import shapes
-from heights import HEIGHTS, along
+from heights import HEIGHTS, along, counted
 
 from core.arrays.components import components
 from core.cuts.berretti.fusion import fuse_small
@@ -86,7 +86,7 @@ def test_a_region_ends_where_its_own_level_set_joins_or_splits():
 @pytest.fixture(params=HEIGHTS)
 def made(request):
     sets = HEIGHTS[request.param]()
-    return sets, simplify(sets, reeb_topology(sets), 0.0025, 1)
+    return sets, simplify(sets, reeb_topology(sets), 0.0025, 1, counted(sets))
 
 
 def region_pairs(sets, region):
@@ -119,7 +119,7 @@ def test_the_decision_is_the_papers_threshold():
     # Salience 0.5 where the ratio is the threshold: what is left has no region below it.
     for threshold in (0.02, 0.05, 0.2):
         sets = along(shapes.tube_tree(), (0.3, 1, 0.2))
-        topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
+        topology = simplify(sets, reeb_topology(sets), 0.0025, 1, counted(sets))
         regions = berretti_regions(sets, topology, threshold)
         kept = regions.hierarchy.parts_at(0.5)[regions.piece_region]
         area = np.bincount(kept, sets.piece_area)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from scipy.spatial import ConvexHull
 
 from core.mesh.corners import CornerTable
 from core.uses.moving.hulls import part_hulls, part_volumes
@@ -47,7 +48,7 @@ def test_a_box_is_its_own_hull(size):
 def test_each_part_has_one_around_it():
     vertices, faces = shapes.two_spheres()
     labels = (vertices[faces].mean(axis=1)[:, 0] > vertices[:, 0].mean()).astype(int)
-    found = hulls((vertices, faces), labels, most_corners=10_000)
+    found = hulls((vertices, faces), labels)
     assert len(found) == 2
     for label, hull in enumerate(found):
         check(hull)
@@ -60,7 +61,7 @@ def test_a_fine_ball_gets_few_corners_and_keeps_its_size():
     (hull,) = hulls((vertices, faces))
     check(hull)
     assert len(hull.vertices) <= 64
-    assert hull.volume > 0.85 * hulls((vertices, faces), most_corners=10_000)[0].volume
+    assert hull.volume > 0.85 * ConvexHull(vertices).volume
 
 
 @pytest.mark.parametrize("stretched", [(1, 1, 8), (1, 0.1, 8), (1e-3, 1e-3, 1)])
@@ -70,7 +71,7 @@ def test_what_is_long_has_as_many_corners_as_it_may(stretched):
     (hull,) = hulls((vertices * stretched, faces))
     check(hull)
     assert len(hull.vertices) == 64
-    assert hull.volume > 0.9 * hulls((vertices * stretched, faces), most_corners=10_000)[0].volume
+    assert hull.volume > 0.9 * ConvexHull(vertices * stretched).volume
 
 
 @pytest.mark.parametrize("points", [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
@@ -133,10 +134,10 @@ def test_two_hulls_fit_an_angle_and_more_are_not_made(size):
     assert len(ball) == 1
 
 
-@pytest.mark.parametrize("count", [2, 4, 8])
+@pytest.mark.parametrize("count", [4, 8])
 def test_every_point_of_a_part_lies_in_one_of_its_hulls(count):
-    vertices, faces = shapes.torus()
-    (found,) = several((vertices, faces), per_part=count, most_corners=10_000)
+    vertices, faces = shapes.torus(12, 8)  # of so few points that no hull has too many corners
+    (found,) = several((vertices, faces), per_part=count)
     assert 1 < len(found) <= count
     samples = np.concatenate([vertices, vertices[faces].mean(axis=1)])
     inside = np.zeros(len(samples), bool)
@@ -145,7 +146,7 @@ def test_every_point_of_a_part_lies_in_one_of_its_hulls(count):
         normal = np.cross(b - a, c - a)
         inside |= ((samples @ normal.T - (a * normal).sum(axis=1)) < 1e-9).all(axis=1)
     assert inside.all()
-    fewer = several((vertices, faces), per_part=count // 2, most_corners=10_000)[0]
+    fewer = several((vertices, faces), per_part=count // 2)[0]
     assert sum(hull.volume for hull in found) < sum(hull.volume for hull in fewer)
 
 
