@@ -73,3 +73,12 @@ def test_patches_end_where_a_sheet_is_folded_up_and_cross_where_it_is_folded_dow
         label, left = concave_patches(mesh, 7), mesh.face_centroids[:, 0] < 6.0
         both = np.intersect1d(label[left], label[~left])
         assert len(both) == 0 if up > 0 else len(both) > 0
+
+
+def test_seeds_are_added_where_patches_are_wide():
+    """On a square none is small: each seed has a patch, and those of the last rounds make the widest narrower."""
+    mesh = TriMesh(*shapes.flat_grid(40, 40))
+    label = concave_patches(mesh, 60)
+    area = np.bincount(label, mesh.face_area) / mesh.area
+    assert len(area) == 60
+    assert area.max() < 3 / 60

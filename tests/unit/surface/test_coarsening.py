@@ -8,7 +8,7 @@ import shapes
 from core.arrays.components import components
 from core.field.geodesic import GeodesicSolver
 from core.mesh.triangles import TriMesh
-from core.surface.coarsening import SLIM, coarsen, prolong
+from core.surface.coarsening import MOST_RISE, SLIM, Coarsening, coarsen, prolong
 
 SURFACES = {"sphere": lambda: shapes.icosphere(3), "genus 2": lambda: shapes.surface_of_genus(2),
             "tree": shapes.tube_tree, "border": lambda: shapes.flat_grid(20, 15),
@@ -162,3 +162,14 @@ def test_pages_around_one_edge_are_few_cells():
     assert coarsen(mesh, mesh.vertex_area).mesh.n_vertices < 0.1 * n
     kept = np.arange(n + 2) > 2  # what is kept is no choice
     assert coarsen(mesh, mesh.vertex_area, kept=kept).mesh.n_vertices == n
+
+
+def test_neighbors_nearly_on_a_line_do_not_tell_how_a_field_rises_across():
+    """By the two neighbors the field would rise by 10 for each unit of length beside them."""
+    ends = np.array([(-1.0, 0, 0), (0, 0, 0), (1, 0.03, 0)])
+    coarse = TriMesh(ends, [[0, 1, 2]])
+    fine = TriMesh(np.concatenate([ends, [(0, 2.0, 0)]]), [[0, 1, 2], [0, 1, 3]])
+    alone = np.array([[0, 0], [1, 1], [2, 2], [3, 3]])  # no vertex has a neighbor to be averaged with
+    found = prolong(fine, Coarsening(coarse, np.array([[0, 1], [1, 2]]), alone, np.array([0, 1, 2, 1]), np.ones(3)),
+                    np.array([0.0, 0.0, 1.0]))
+    assert found == pytest.approx([0.0, 0.0, 1.0, MOST_RISE])

@@ -74,3 +74,12 @@ def test_a_dumbbell_of_noise_has_the_parts_of_a_dumbbell():
     ours, theirs = (decompose(vertices, clean[1]).parts() for vertices in (clean[0], rough.vertices))
     assert theirs.count == ours.count
     assert rand_index_error(ours.labels, theirs.labels) < 0.02
+
+
+def test_a_few_spikes_are_no_noise():
+    """They stand out as far as all else together, and each against its neighbors, as noise does."""
+    vertices, faces = shapes.icosphere(4)
+    vertices = vertices.copy()
+    vertices[::250] *= 1.2
+    mesh = TriMesh(vertices, faces)
+    assert denoised(mesh) is mesh

@@ -6,9 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
+from heights import along
 
 from core.arrays.components import components
-from core.cuts.berretti.boundary_search import at_crossings, concavity, contour_curve, search_boundaries
+from core.cuts.berretti.boundary_search import (
+    _search_runs,
+    at_crossings,
+    concavity,
+    contour_curve,
+    search_boundaries,
+)
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.mesh.triangles import TriMesh
@@ -181,3 +188,16 @@ def test_upside_down_is_the_same_cut():
     one = cut_heights(up, moved(up, parted_at(up, 22), 0.5))
     two = cut_heights(down, moved(down, parted_at(down, 58 - 22), 0.5))
     assert one == pytest.approx(1 - two, abs=1.01 / 60)
+
+
+def test_a_cut_may_move_up_to_the_middle_between_itself_and_the_next():
+    sets = along(shapes.dumbbell(), (0, 0, 1))
+    topology = reeb_topology(sets)
+    arc = int(np.bincount(topology.contour_arc[topology.contour_arc >= 0]).argmax())
+    contours = np.flatnonzero(topology.contour_arc == arc)
+    contours = contours[np.argsort(sets.contour_level[contours])]
+    places = np.array([3, 8, 9, 20])
+    runs = dict(_search_runs(sets, topology, contours[places]))
+    assert list(runs) == contours[places].tolist()
+    assert [run.tolist() for run in runs.values()] == [
+        contours[start:stop].tolist() for start, stop in ((0, 6), (6, 9), (9, 15), (15, len(contours)))]

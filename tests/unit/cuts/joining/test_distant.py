@@ -99,3 +99,11 @@ def test_nothing_near():
     near = parts_of(np.empty((0, 2), int), [0.5, 0.5], np.eye(3)[:2], [0.1, 0.2])
     pairs = distant_pairs(near, parted_by(1.0), np.empty(0), np.empty((0, 2), int), np.empty(0))
     assert columns(pairs, ("odds", "weakest", "steps"), 0, 1) == [NOT_NEAR, NEVER, STEPS]
+
+
+def test_of_two_parts_whose_areas_differ_by_rounding_the_first_is_the_smaller():
+    more = np.nextafter(0.3, 1)
+    of_equal, of_unequal = (
+        distant_pairs(parts_of([(0, 1)], [area, 0.3], [(0, 0, 0), (1, 0, 0)], [0.2, 0.7]), parted_by(1.0), np.zeros(1),
+                      np.empty((0, 2), int), np.empty(0)).features for area in (0.3, more))
+    assert of_unequal == pytest.approx(of_equal, abs=1e-9)

@@ -39,6 +39,11 @@ def test_a_cross_by_its_area():
     assert convexity(*figure(cross)) == pytest.approx(area, abs=0.1)
 
 
+def test_a_slit_by_the_perimeter():
+    # A slit 0.2 wide and 1.8 deep takes 0.36 of the area of 4, and adds 3.6 to the perimeter of 8.
+    assert convexity(*figure(lambda x, y: (np.abs(x) >= 0.1) | (y < -0.8))) == pytest.approx(8 / 11.6, abs=0.05)
+
+
 def test_turned_and_scaled_is_as_convex():
     position, pairs = figure(cross)
     for angle in (0.3, 1.0):

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.perceptual.thickness import LARGEST_BALL, thickness
+from core.arrays.nearest import search_tree
+from core.cuts.perceptual.thickness import LARGEST_BALL, _nearest, thickness
 from core.mesh.triangles import TriMesh
 
 
@@ -57,3 +58,12 @@ def test_the_order_of_the_faces_and_the_size_do_not_count():
         np.testing.assert_allclose(one[shuffle], other, rtol=1e-9)
         assert (one > 0).all()
         assert (one <= (1 + 1e-12) * LARGEST_BALL).all()
+
+
+def test_all_that_are_as_near_as_the_third_count():
+    """On a regular grid, rounding must not choose."""
+    square = np.array([(0.0, 0), (1, 0), (0, 1), (1, 1), (3, 3), (4, 4), (5, 5)])
+    square[0] -= 1e-12
+    near, counts = _nearest(search_tree(square), np.array([(0.5, 0.5), (0.1, 0.2)]))
+    assert np.sort(near[0][counts[0]]).tolist() == [0, 1, 2, 3]
+    assert near[1][counts[1]].tolist() == [0, 2, 1]
