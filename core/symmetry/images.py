@@ -90,17 +90,14 @@ class Images:
         This one first, then none, one or two others, all across each other; empty if polygons are no exact images in
         this one. Which of two planes mirrors first makes no difference. Dense meshes are not looked at.
         """
-        if self.plane.share < 1 - EXACT or self.faces.n_polygons > DENSE:
+        if self.faces.n_polygons > DENSE or not self._permutes:
             return []
-        found: list[Images] = []
-        for other in (self, *self._likely_across):
+        found = [self]
+        for other in self._likely_across:
             image = other._polygons[0]
             known = [images._polygons[0] for images in found]
-            commutes = all(np.array_equal(image[before], before[image]) for before in known)
-            if other._permutes and commutes:
+            if other._permutes and all(np.array_equal(image[before], before[image]) for before in known):
                 found.append(other)
-            elif other is self:
-                break
         return found
 
     @cached_property

@@ -8,7 +8,7 @@ import shapes
 from core import TriMesh
 from core.arrays.components import components
 from core.surface import contact
-from core.surface.contact import FEW_LABELS, MAX_POINTS, NEAR, SurfacePoints, bridges, diameter, near_pairs
+from core.surface.contact import FEW_LABELS, MAX_POINTS, NEAR, SLACK, SurfacePoints, bridges, diameter, near_pairs
 
 
 def points_at(position):
@@ -64,6 +64,17 @@ def test_boxes_are_linked_where_they_come_near_or_where_all_are_to_hang_together
         np.testing.assert_allclose(mesh.vertices[found.vertices][..., 0].min(axis=1), 1)  # on the sides that face
 
 
+def test_two_pieces_are_linked_as_far_as_they_are_hardly_farther_apart_than_where_they_are_nearest():
+    flat, slope = shapes.flat_grid(60, 6), 0.01
+    rising = shapes.moved(shapes.Shape(flat.vertices + flat.vertices[:, :1] * (0, 0, slope), flat.faces), (0, 0, 0.1))
+    mesh = TriMesh(*shapes.together(flat, rising))
+    points = SurfacePoints.of(mesh, mesh.face_components[1])
+    farthest = SLACK * diameter(points.position, points.area) / slope
+    along = mesh.vertices[bridges(mesh).vertices][..., 0]
+    assert along.min() == 0
+    assert farthest - 1 < along.max() <= farthest + 1
+
+
 def chests(count, gap, lid=0.02):
     """A row of boxes, each with a lid that floats over it; gaps in units of their size."""
     return shapes.together(*(shapes.moved(shapes.subdivide(shapes.box((1, 1, height))), (k * (1 + gap), 0, z))
@@ -83,6 +94,17 @@ def test_things_of_a_scene_are_linked_within_and_not_to_each_other(scale):
         (2 * k, 2 * k + 1) for k in range(30)}
     count, _ = components(60, *piece[bridges(mesh, connected=True).faces].T)
     assert count == 1
+
+
+@pytest.mark.parametrize(("share", "is_scene"), [(0.31, True), (0.36, False)])
+def test_a_scene_has_no_thing_as_long_as_a_third_of_it(share, is_scene):
+    row = chests(30, 0.4)
+    size = diameter(*(getattr(SurfacePoints.of(TriMesh(*row), np.zeros(len(row.faces), int)), name)
+                      for name in ("position", "area")))
+    plank = shapes.subdivide(shapes.subdivide(shapes.box((share * size, 0.1, 0.1))))
+    mesh = TriMesh(*shapes.together(row, shapes.moved(plank, (0, 3, 0))))
+    pairs = mesh.face_components[1][bridges(mesh).faces] // 2
+    assert (pairs[:, 0] == pairs[:, 1]).all() == is_scene
 
 
 def test_many_things_of_a_scene_are_not_linked_to_each_other():

@@ -6,10 +6,12 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.mesh.polygons import PolygonMesh
 from core.mesh.triangles import TriMesh
 from core.parameters import METHODS
 from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering
+from core.surface.preparation import bodies, repair
 from core.symmetry.mirrors import Mirror
 
 
@@ -71,6 +73,17 @@ def test_a_figure_whose_front_is_the_image_of_its_back_is_named_by_side(divided)
     assert np.abs(result.plane.normal) == pytest.approx([1, 0, 0])
     assert set(parts.side[parts.labels[np.abs(middle) > 4]].tolist()) == {-1, 1}
     assert (parts.side[parts.labels] * np.sign(middle) >= 0).all()
+
+
+@pytest.mark.parametrize("count", [3, 5, 8])
+def test_a_face_of_a_star_lies_as_far_beside_as_no_image_of_it(count):
+    vertices, faces = shapes.prism_of_rays(count)
+    (body,) = bodies(repair(PolygonMesh.of(vertices, faces)), True, 0.01).decomposed
+    mirror = Mirror.of(body.mesh, body.polygon, len(faces))
+    image = mirror.group.image
+    assert len(image) == 4 * count
+    apart = np.abs(mirror.beside - mirror.beside[image[1:]])
+    assert apart[image[1:] != np.arange(len(faces))].min() > 1e-3 * np.ptp(mirror.beside)
 
 
 @pytest.mark.parametrize(("lump", "least", "most"), [(0.0, 1.0, 1.0), (0.34, 0.95, 0.99), (0.4, 0.85, 0.95)])

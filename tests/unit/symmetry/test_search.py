@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Planes of symmetry, whatever their direction, and the mirror twins of faces."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapes
@@ -10,7 +12,7 @@ from core.mesh.triangles import TriMesh
 from core.surface.preparation import bodies, repair
 from core.symmetry import small_faces as small
 from core.symmetry.images import Images
-from core.symmetry.search import mirror_plane
+from core.symmetry.search import EXACT, mirror_plane
 from core.symmetry.small_faces import SmallFaces
 
 
@@ -124,6 +126,16 @@ def test_a_dent_on_one_side_leaves_no_exact_plane():
     plane = plane_of(mesh)
     assert plane is not None
     assert Images(SmallFaces.of(mesh), plane).exact == []
+
+
+def test_planes_across_one_are_asked_for_where_it_mirrors_nearly_all_and_taken_where_they_do():
+    box, wedge = shapes.box((3, 2, 1)), shapes.box((3, 2, 1)).vertices.copy()
+    wedge[wedge[:, 2] > wedge[:, 2].mean(), 0] /= 2  # its sides in y alone are mirror images
+    for shape, count in ((box, 3), ((wedge, box.faces), 1)):
+        found = SmallFaces.of(TriMesh(*shape))
+        plane = mirror_plane(found)
+        assert len(Images(found, plane).within) == count
+        assert len(Images(found, replace(plane, share=1 - 1.1 * EXACT)).within) == 1
 
 
 def test_a_twisted_tree_has_no_plane():

@@ -124,3 +124,33 @@ def test_a_mesh_stretched_on_one_side_has_none(figure):
 def test_dense_meshes_are_not_looked_at(figure, monkeypatch):
     monkeypatch.setattr(module, "MOST_POLYGONS", len(figure.faces) - 1)
     assert found(*figure) is None
+
+
+def test_images_grow_over_what_is_as_long_but_for_a_bend(figure):
+    """A hand that is three times as large as the other hangs together alike, and is not its image."""
+    vertices, faces = figure
+    far = vertices[:, 0] > 0.9
+    for size, grown in ((1.5, True), (3.5, False)):
+        points = vertices.copy()
+        points[far] = (0.9, 0, 0) + size * (points[far] - (0.9, 0, 0))
+        mesh = TriMesh(points, faces)
+        half = module.HalfEdges.of(mesh, np.arange(len(faces)))
+        twin = exact_twins(*figure)
+        known = module._consistent(half, module._only_images(half)[-1], mesh.face_area[half.polygon])
+        hand = far[faces].all(axis=1)
+        known[(hand | hand[twin])[half.polygon]] = -1
+        partner = module._grown(half, known)
+        assert (partner[hand[half.polygon]] >= 0).mean() == pytest.approx(float(grown), abs=0.2)
+
+
+@pytest.mark.parametrize(("turned", "has_sides"), [(0.04, True), (0.06, False)])
+def test_what_is_turned_onto_itself_has_no_sides(turned, has_sides):
+    """Four polygons: two that are images of each other beside the middle, and two that another region swaps."""
+    twin = np.array([1, 0, 3, 2])
+    share = np.array([0.5 - turned / 2, 0.5 - turned / 2, turned])
+    beside = np.array([True, True, False])
+    regions = module._Regions(np.array([0, 1, 2, 2]), np.array([1, 0, -1]), share, beside, turned)
+    middle = np.array([(1.0, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
+    found = module._with_sides(regions, twin, np.append(share[:2], [turned / 2] * 2), middle)
+    assert (found is not None) == has_sides
+    assert found is None or found.side.tolist() == [1, -1, 0, 0]

@@ -80,7 +80,8 @@ def test_a_floor_is_left_out_and_corresponds_to_a_floor(figure):
         np.testing.assert_array_equal(getattr(with_floor, name), getattr(samples, name))
     n = labels.max() + 1
     both = np.append(labels, [n, n])
-    assert carried_labels(with_floor, both, with_floor, both)[0].tolist() == list(range(n + 1))
+    label, share = carried_labels(with_floor, both, with_floor, both)
+    assert (label.tolist(), share[n]) == (list(range(n + 1)), 1)
     label, share = carried_labels(with_floor, both, samples, labels)
     assert label.tolist() == list(range(n))
     label, share = carried_labels(samples, labels, with_floor, both)
