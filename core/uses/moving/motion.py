@@ -64,6 +64,5 @@ def rigid_motions(before: np.ndarray, after: np.ndarray, weight: np.ndarray, lab
     size = np.bincount(label, share * np.maximum((one**2).sum(axis=1), (two**2).sum(axis=1)), n_labels)
     spread += _ROUND * size[:, None, None] * np.eye(3)
     left, _, right = np.linalg.svd(spread)
-    turned = np.swapaxes(right, 1, 2) @ np.swapaxes(left, 1, 2)
-    right[:, 2] *= np.where(np.linalg.det(turned) < 0, -1.0, 1.0)[:, None]  # no mirror images
+    right[:, 2] *= np.where(np.linalg.det(left) * np.linalg.det(right) < 0, -1.0, 1.0)[:, None]  # no mirror images
     return Motions(np.swapaxes(right, 1, 2) @ np.swapaxes(left, 1, 2), start, end)
