@@ -176,13 +176,32 @@ def compare(command: list[str], variables: dict[str, str], folder: Path) -> None
 
 def kill(command: list[str], variables: dict[str, str], folder: Path) -> bool:
     """Kill what KILLS says in one run, and have a second one end it; whether nothing was lost."""
-    import psutil
-
     out, models = folder / "killed", folder / "models"
     count = len(list(models.iterdir()))
-    options = [str(models), "--out", str(out), "--workers", "2", "--dashboard", "127.0.0.1:0"]
-    run = subprocess.Popen([*command, *options], env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                           start_new_session=True)
+    every = [*command, str(models), "--out", str(out), "--workers", "2", "--dashboard", "127.0.0.1:0"]
+    _killed(subprocess.Popen(every, env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                             start_new_session=True), out, count)
+    before = _records(out)
+    stamps = {name: _stamp(out, name) for name, record in before.items()
+              if record["status"] in ("done", "refused", "unreadable")}
+    again = subprocess.run(every, env=variables, check=False, text=True, stdout=subprocess.PIPE,
+                           stderr=subprocess.DEVNULL)
+    answer = json.loads(again.stdout)
+    print(f"recorded before: {dict(Counter(record['status'] for record in before.values()))}, "
+          f"kept: {answer['kept']}, in the end: {answer['models']}", flush=True)
+    wrong = _lost(out, count, before, stamps, answer)
+    for words, names in wrong.items():
+        if names:
+            print(f"{len(names)}: {words}, such as {names[0]}", flush=True)
+    sound = not any(wrong.values())
+    print("nothing was lost" if sound else "NOT ALL OF IT HOLDS", flush=True)
+    return sound
+
+
+def _killed(run: subprocess.Popen, out: Path, count: int) -> None:
+    """Kill what KILLS says in a run over so many models, each at its time."""
+    import psutil
+
     for share, what in KILLS:
         _wait(out, int(share * count), run)
         children = psutil.Process(run.pid).children(recursive=True)
@@ -194,30 +213,26 @@ def kill(command: list[str], variables: dict[str, str], folder: Path) -> bool:
             computing = _computing(run)
             (computing if what == "a process that computes a model" else computing.parent()).kill()
         print(f"killed {what} when {len(_records(out))} of {count} models had a record", flush=True)
-    before = _records(out)
-    final = {name for name, record in before.items() if record["status"] in ("done", "refused", "unreadable")}
-    stamps = {name: _stamp(out, name) for name in final}
-    again = subprocess.run([*command, *options], env=variables, check=False, text=True, stdout=subprocess.PIPE,
-                           stderr=subprocess.DEVNULL)
-    answer, after = json.loads(again.stdout), _records(out)
-    print(f"recorded before: {dict(Counter(record['status'] for record in before.values()))}, "
-          f"kept: {answer['kept']}, in the end: {answer['models']}", flush=True)
-    wrong = {
-        "was recorded and is not whole": [name for name in final if not _whole(out, name, before[name])],
-        "was done and was done again": [name for name in final if _stamp(out, name) != stamps[name]],
-        "was done and was not kept": [] if answer["kept"] == len(final) else [f"{len(final) - answer['kept']} models"],
+
+
+def _lost(
+    out: Path, count: int, before: dict[str, dict], stamps: dict[str, tuple], answer: dict
+) -> dict[str, list[str]]:
+    """What does not hold after a run that was killed and one more, and the models, by what is wrong with them.
+
+    before : the records of the first run. stamps : of the models it was done with. answer : that of the second run.
+    """
+    after = _records(out)
+    return {
+        "was recorded and is not whole": [name for name in stamps if not _whole(out, name, before[name])],
+        "was done and was done again": [name for name in stamps if _stamp(out, name) != stamps[name]],
+        "was done and was not kept": [] if answer["kept"] == len(stamps) else [f"{len(stamps)} models"],
         "is not whole in the end": [name for name, record in after.items() if not _whole(out, name, record)],
         "was never reached": [] if len(after) == sum(answer["models"].values()) == count else [f"{len(after)} records"],
         "crashed, and was not tried again": [name for name, record in after.items() if record["status"] == "crash"],
         "is left under a hidden name": [str(path) for path in out.rglob(".reeb_parts_*")],
         "is not as the tables have it": _untabled(out, after),
     }
-    for words, names in wrong.items():
-        if names:
-            print(f"{len(names)}: {words}, such as {names[0]}", flush=True)
-    sound = not any(wrong.values())
-    print("nothing was lost" if sound else "NOT ALL OF IT HOLDS", flush=True)
-    return sound
 
 
 def _computing(run: subprocess.Popen):
