@@ -442,7 +442,8 @@ def test_a_table_of_loose_boxes_is_one_body_of_a_top_and_four_legs():
 
 def test_small_loose_parts_are_one_part_each(preset):
     shape = shapes.together(shapes.tube_tree(), *(shapes.moved(shapes.icosphere(1, 0.05), (3, k, 0)) for k in range(3)))
-    for parameters, note in ((preset, "3 small bodies are one part each."), (separate(preset), "3 small ones")):
+    alone = "4 loose parts are decomposed each on its own; 3 small ones are one part each."
+    for parameters, note in ((preset, "3 small bodies are one part each."), (separate(preset), alone)):
         result = sound_triangles(shape, parameters)
         labels = result.parts(1.0).labels[len(shapes.tube_tree().faces):].reshape(3, 80)
         assert (labels == labels[:, :1]).all()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts over several pieces: of shells that touch, of bodies far apart, of a mesh that was taken apart."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import shapes
@@ -8,7 +10,10 @@ import shapes
 from core import Parameters, TriMesh, decompose
 from core.arrays.components import components
 from core.cuts.hierarchy import Hierarchy
-from core.cuts.joining.method import JoinModel, fine_parts, join_model, join_parts
+from core.cuts.joining import method
+from core.cuts.joining.distant import DistantPairs
+from core.cuts.joining.linkage import JudgedPairs
+from core.cuts.joining.method import JoinModel, fine_parts, join_model, join_parts, near_odds
 from core.metrics import rand_index_error
 
 
@@ -72,6 +77,36 @@ def test_parts_of_large_faces_beside_a_dense_piece_join_as_the_method_of_cutting
     hierarchy, contacts = join_parts(parts, JoinModel(join_model().near, None))
     assert (hierarchy.salience_between(*np.array([[0], [1]]))[0] < 0.5) == (salience < 0.5)
     assert parts.neighbor_faces.tolist()[0] in contacts.tolist()
+
+
+class Judge:
+    """A model that gives pairs the shares that their first feature is."""
+
+    def predict(self, features):
+        return features[:, 0]
+
+
+def known_parts(area, **more):
+    """Fine parts of which only what is named is known."""
+    near = dict(parts=np.array([[0, 1]]), shapes=SimpleNamespace(area=np.asarray(area, float)))
+    return SimpleNamespace(candidate=np.zeros(len(area), int), pairs=SimpleNamespace(**near, **more), within=0.25)
+
+
+def test_a_salience_has_its_say_in_the_odds_of_two_parts_of_one_piece():
+    for same_piece, expected in ((True, 0.75 * np.log(9) + 0.25 * np.log(1 / 4)), (False, np.log(9))):
+        parts = known_parts([1, 1], features=np.array([[0.9]]), salience=np.array([0.8]), same_piece=same_piece)
+        assert near_odds(parts, Judge()) == pytest.approx(expected, abs=1e-3)
+
+
+def test_what_is_said_of_a_pair_that_comes_near_weighs_more_than_what_is_said_of_any_pair():
+    parts = known_parts([0.25, 0.36, 0.39])
+    near = JudgedPairs(np.array([[0, 1]]), np.array([2.0]), np.array([0.5]), np.ones(1, bool))
+    every = DistantPairs(np.array([[0, 2], [0, 1], [1, 2]]), np.array([[0.9], [0.5], [0.1]]))
+    found = method._with_distant(parts, near, every, Judge())
+    assert found.members.tolist() == [[0, 1], [0, 2], [1, 2]]
+    assert found.score == pytest.approx([method.NEARNESS * 2 / (method.NEARNESS + 1), np.log(9), -np.log(9)], abs=1e-3)
+    assert found.weight == pytest.approx([0.5 * (method.NEARNESS + 1), 0.5, 0.6])
+    assert found.near.tolist() == [True, False, False]
 
 
 def test_two_far_spheres():
