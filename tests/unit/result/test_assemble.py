@@ -6,6 +6,11 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.cuts.face_candidates import FaceCandidates
+from core.cuts.hierarchy import Hierarchy
+from core.mesh.polygons import PolygonMesh
+from core.result.assemble import face_graph_of, tables_of
+from core.surface.preparation import repair
 
 
 def test_faces_without_area_that_touch_only_each_other_follow_the_nearest():
@@ -20,6 +25,18 @@ def test_faces_without_area_that_touch_only_each_other_follow_the_nearest():
     assert (two[-2:] == two[nearest]).all()
     for count in range(1, found.n_candidates + 1):
         assert found.parts(n_parts=count).count == count
+
+
+def test_a_vertex_is_of_the_candidate_of_most_of_the_area_around_it():
+    vertices, faces = shapes.icosphere(3)
+    given = PolygonMesh.of(vertices + 0.03 * np.random.default_rng(0).normal(size=vertices.shape), faces)
+    working = repair(given)
+    label = (given.triangles.face_centroids[:, 0] > 0) + 2 * (given.triangles.face_centroids[:, 1] > 0.1)
+    graph = face_graph_of(given, working)
+    candidates = FaceCandidates(graph, np.empty((0, 2), int), label, Hierarchy.of(4, [], []))
+    around = np.zeros((len(vertices), 4))
+    np.add.at(around, (faces, label[:, None]), given.triangles.face_area[:, None])
+    assert tables_of(given, working, candidates).vertex_candidates.tolist() == around.argmax(axis=1).tolist()
 
 
 @pytest.mark.parametrize(("more", "notes"), [(0, 0), (1, 1)])

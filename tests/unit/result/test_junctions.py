@@ -143,3 +143,9 @@ def test_the_cuts_after_faces_were_given_to_other_parts():
     for count in (2, finer.n_candidates // 2, finer.n_candidates):
         parts = finer.parts(n_parts=count)
         assert cut_lengths(parts) == pytest.approx(edge_lengths(vertices, faces, parts.labels))
+
+
+def test_fans_are_the_sides_of_edges_of_three_faces_and_more_edge_by_edge():
+    face, edge = np.array([0, 1, 2, 3, 4, 5, 6, 7]), np.array([3, 0, 2, 3, 0, 2, 3, 1])
+    assert FaceSides(face, edge, np.ones(4)).fans.tolist() == [0, 3, 6]
+    assert FaceSides(face[:6], edge[:6], np.ones(4)).fans.tolist() == []
