@@ -11,23 +11,6 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 
-# Entries of a row from which on pivots must stay on the diagonal, see ``solved_with_pivots``.
-LONG_ROW = 500
-
-
-def solved_with_pivots(matrix: csr_array, right: np.ndarray) -> np.ndarray:
-    """Solve as ``solved`` does, but take the largest pivots unless a row is long.
-
-    What ships has learned from surfaces whose systems were solved so: to the last digit, pivots on the diagonal give
-    others. Arguments and result are those of ``solved``.
-    """
-    from scipy.sparse.linalg import splu  # imported here for the reason that arrays.components gives
-
-    if np.diff(matrix.indptr).max(initial=0) >= LONG_ROW:
-        return solved(matrix, right)
-    return splu(matrix.tocsc()).solve(right)
-
-
 def solved(matrix: csr_array, right: np.ndarray) -> np.ndarray:
     """Solve a system whose matrix is symmetric and positive definite.
 

@@ -18,7 +18,7 @@ from ..arrays.indexing import spread_evenly, sums_by
 from ..arrays.int64 import arange
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.pairs import symmetric_matrix
-from ..arrays.systems import solved_with_pivots
+from ..arrays.systems import solved
 from ..arrays.vectors import cross, row_products, unit
 from ..mesh.labels import majority
 from ..mesh.triangles import TriMesh, corner_sides
@@ -204,7 +204,7 @@ def _membrane(stiffness: csr_array, area: np.ndarray, within: np.ndarray) -> np.
     height = np.zeros(len(within))
     matrix = stiffness[inside][:, inside]
     matrix = matrix + diags_array(ROUNDING * np.abs(matrix.diagonal()))
-    height[inside] = solved_with_pivots(matrix, 2 * area[inside])
+    height[inside] = solved(matrix, 2 * area[inside])
     return np.maximum(np.nan_to_num(height), 0.0)
 
 
@@ -224,7 +224,7 @@ def _without_wrinkles(
     system = diags_array(mass) + flow
     normal = sums_by(mesh.faces[thin].ravel(), np.repeat(mesh.area_normals[thin], 3, axis=0), mesh.n_vertices)
     start = np.hstack([mass[:, None] * mesh.vertices[of_sheet], normal[of_sheet]])
-    smooth = solved_with_pivots(system, start)
+    smooth = solved(system, start)
     smooth_normal = np.zeros((mesh.n_vertices, 3))
     smooth_normal[of_sheet] = unit(smooth[:, 3:])
     place, n = mesh.vertices.copy(), smooth_normal[of_sheet]
