@@ -265,6 +265,25 @@ def test_a_pipe_in_a_pipe_and_rims_between_other_parts(make, separate):
     assert sum(map(volume, made.meshes.values())) == pytest.approx(volume(obj.data), rel=1e-5)
 
 
+def test_the_pieces_of_a_hollow_print_are_hollow(make):
+    """The inner wall was a part of its own or went with one part: its pieces had up to four times the volume."""
+    outer, inner = shapes.dumbbell(60, 24), shapes.dumbbell(40, 20, 0.19)
+    inner = shapes.inside_out(shapes.Shape(inner.vertices * (0.9, 0.9, 0.97), inner.faces))
+    obj = make(shapes.together(outer, inner))
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True)
+    meshes = [piece.data for piece in pieces_of()]
+    assert len(meshes) >= 2
+    assert [borders(mesh) for mesh in meshes] == [(set(), 0)] * len(meshes)
+    assert sum(map(volume, meshes)) == pytest.approx(volume(obj.data), rel=1e-5)
+    assert all(volume(mesh) < 0.5 * bounding_volume(mesh) for mesh in meshes)
+
+
+def bounding_volume(mesh):
+    """Volume of the box around a mesh."""
+    return float(np.ptp(read(mesh.vertices, "co", np.float32, 3), axis=0).prod())
+
+
 @pytest.mark.parametrize("cut", ["PLANAR", "SMOOTH"])
 def test_bent_cuts_are_planar_if_asked_for(make, separate, cut):
     """A border up and down around a ball: planar, its cap is one face for both sides; else it is a surface."""
