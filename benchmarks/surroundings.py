@@ -140,6 +140,17 @@ def cyclorama(model: Model) -> Shape:
     return model.placed(side * points, side * np.repeat(height, 21)), squares(len(flat) - 1, 20)
 
 
+def room(model: Model, n: int) -> Shape:
+    """A floor, a wall behind and one on each side, of n times n squares each, with corners of their own."""
+    side = FLOOR_SIDE * model.extent.max()
+    at = np.linspace(-0.5, 0.5, n + 1)
+    a, b = np.stack(np.meshgrid(at, at, indexing="ij"), axis=-1).reshape(-1, 2).T
+    half = np.full(len(a), 0.5)
+    walls = ((a, b, 0 * half), (-half, -b, a + 0.5), (-a, -half, b + 0.5), (a, half, b + 0.5))
+    points = [model.placed(side * np.stack([x, y], axis=1), side * height) for x, y, height in walls]
+    return np.concatenate(points), np.concatenate([squares(n, n) + len(a) * k for k in range(4)])
+
+
 def block(model: Model, wide: float, high: float) -> Shape:
     """A block below it, so wide and high in units of the model."""
     size = wide * model.extent
@@ -190,6 +201,7 @@ SURROUNDINGS = {
     "floor of 64 tiles": lambda model: [tiles(model, 8)],
     "hills": lambda model: [floor(model, 40, 0.05)],
     "cyclorama": lambda model: [cyclorama(model)],
+    "room, open in front": lambda model: [room(model, 12)],
     "block": lambda model: [block(model, 1.0, 0.5)],
     "dust": lambda model: [dust(model)],
 }

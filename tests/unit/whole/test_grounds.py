@@ -40,6 +40,14 @@ def tiles(width, n=6):
         [4 * np.arange(n * n)[:, None] + triangle for triangle in ((0, 1, 2), (0, 2, 3))]))
 
 
+def open_room(width, n=12):
+    """A floor, a wall behind and one on each side, of n x n quads each, with corners of their own."""
+    x, y, z = sheet(width, n).vertices.T
+    half, high = np.full(len(x), width / 2), y + width / 2
+    walls = [(x, y, z), (-x, half, high), (half, x, high), (-half, -x, high)]
+    return shapes.together(*(shapes.Shape(np.stack(wall, axis=1), sheet(width, n).faces) for wall in walls))
+
+
 def tree():
     """The tree of tubes, its lowest point at z = 0."""
     return shapes.moved(shapes.tube_tree(), (0, 0, -shapes.tube_tree().vertices[:, 2].min()))
@@ -76,9 +84,10 @@ def collider():
 @pytest.mark.parametrize("floor", [
     sheet(5), sheet(40), sheet(200), sheet(12, 30), sheet(5, depth=0.6), sheet(15, depth=2), backdrop(15),
     shapes.icosphere(1, 20), shapes.moved(shapes.box((15, 15, 10)), (-7.5, -7.5, 0)), collider(),
-    shapes.icosphere(2, 7.5), hills(15), tiles(15), shapes.subdivide(shapes.subdivide(shapes.subdivide(backdrop(15))))],
+    shapes.icosphere(2, 7.5), hills(15), tiles(15), open_room(15),
+    shapes.subdivide(shapes.subdivide(shapes.subdivide(backdrop(15))))],
     ids=["near", "wide", "very wide", "of many faces", "plinth", "slab", "backdrop", "dome", "room", "box around it",
-         "ball around it", "hills", "tiles", "backdrop of many faces"])
+         "ball around it", "hills", "tiles", "open room", "backdrop of many faces"])
 def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
     """On a floor three times as wide a person was one part."""
     alone, n = decompose(*tree()), len(tree().faces)
