@@ -33,9 +33,9 @@ SHEET, SLAB = 0.05, 0.4
 # The rest is so high then, at least, in units of the root of its sides across, multiplied, and no more than a share of
 # its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
 HIGH, BELOW = 0.1, 0.05
-# Or it is a relief, such as hills or a room that is open in front, seen from one direction: its shadow has at least the
-# first of these as a share of its area, and but for the second no face is turned from there, by a cosine below the third.
-# The rest has at least the fourth, is as high, seen from there, and on one side.
+# Or it is a relief, such as hills or a room that is open in front, seen from one direction: its shadow has at least
+# the first of these as a share of its area, and but for the second no face is turned from there, by a cosine below the
+# third. The rest has at least the fourth, is as high, seen from there, and on one side.
 SHADOW, TURNED, AWAY, REST = 0.3, 0.02, -0.05, 0.002
 # A ground, too, is a convex shell - its area is that of its hull but for this share - of no more faces than this if the
 # rest is within it but for a share of its diameter, and deep within: by this share of it, in the mean. The marks on a
