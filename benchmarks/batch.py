@@ -226,7 +226,8 @@ def _lost(
     return {
         "was recorded and is not whole": [name for name in stamps if not _whole(out, name, before[name])],
         "was done and was done again": [name for name in stamps if _stamp(out, name) != stamps[name]],
-        "was done and was not kept": [] if answer["kept"] == len(stamps) else [f"{len(stamps)} models"],
+        "was done and was not kept": [] if answer["kept"] == len(stamps) else [
+            f"{len(stamps) - answer['kept']} models"],
         "is not whole in the end": [name for name, record in after.items() if not _whole(out, name, record)],
         "was never reached": [] if len(after) == sum(answer["models"].values()) == count else [f"{len(after)} records"],
         "crashed, and was not tried again": [name for name, record in after.items() if record["status"] == "crash"],

@@ -27,6 +27,11 @@ def hashed_sets(owner: np.ndarray, member: np.ndarray, count: int) -> np.ndarray
     return total
 
 
+def rehashed(number: np.ndarray) -> np.ndarray:
+    """Other numbers, (n,) uint64, for numbers, (n,) uint64: equal for equal ones, in no proportion to them."""
+    return (number ^ number >> np.uint64(32)) * GOLDEN
+
+
 def _mixed(values: np.ndarray, factor: int) -> np.ndarray:
     """Numbers, (n,) uint64, that differ in all bits where values, (n,) float64, differ.
 

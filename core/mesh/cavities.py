@@ -75,7 +75,7 @@ def _runs_along(given: PolygonMesh, inner: np.ndarray, outer: np.ndarray, diamet
 
     inner, outer : (m,) bool. diameter : float, of the outer one.
     """
-    from scipy.spatial import cKDTree  # imported here for the reason that arrays.components gives
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
     mesh = given.triangles
     faces, points, spacing = [], [], []
@@ -84,8 +84,8 @@ def _runs_along(given: PolygonMesh, inner: np.ndarray, outer: np.ndarray, diamet
         faces.append(unit(mesh.area_normals[face]))
         points.append(position)
         spacing.append(np.sqrt(mesh.face_area[mine].sum() / POINTS))
-    distance, nearest = cKDTree(points[1]).query(points[0])
-    normal = faces[1][nearest]
-    height = np.abs(row_products(points[0] - points[1][nearest], normal))
+    distance, found = nearest(search_tree(points[1]), points[0])
+    normal = faces[1][found]
+    height = np.abs(row_products(points[0] - points[1][found], normal))
     near = (height <= FAR * diameter) & (distance <= FAR * diameter + 2 * max(spacing))
     return bool((near & (row_products(faces[0], normal) < FACING)).mean() >= MOST)

@@ -17,7 +17,7 @@ from ..arrays.indexing import begins_run, inverse
 from ..arrays.int64 import arange, cumsum
 from ..sentence import Sentence
 from .cavities import LEAST, POINTS, find_cavities
-from .pieces import Pieces, measured, nearest_on
+from .pieces import Pieces, measured, nearest_polygons, nearest_vertices
 from .polygons import MIN_FACES, PolygonMesh, hashed_polygons
 from .skins import MOST_OF_MESH, find_skins
 from .triangles import TriMesh, vertex_components
@@ -118,7 +118,7 @@ def find_copies(given: PolygonMesh) -> Copies | None:
 def _skins(given: PolygonMesh, place: np.ndarray) -> Copies | None:
     """Second skins as copies of what they run along; place : (n,) uint64, where each vertex is."""
     mesh = given.triangles
-    count, piece = vertex_components(mesh.faces, mesh.n_vertices)
+    count, piece = mesh.vertex_components
     if count == 1 or not _may_have_skins(mesh, piece[mesh.faces[:, 0]], count):
         return None
     found = _along(given, Pieces.of(given, place))
@@ -135,12 +135,13 @@ def _skins(given: PolygonMesh, place: np.ndarray) -> Copies | None:
 
 
 def _along(given: PolygonMesh, pieces: Pieces) -> tuple[np.ndarray, np.ndarray] | None:
-    """What polygons and vertices of skins and cavities run along, as ``nearest_on`` says it; None without such."""
-    if (base := find_skins(given, pieces)) is not None:
-        return nearest_on(given, pieces, base, 0)
-    if (base := find_cavities(given, pieces)) is not None:
-        return nearest_on(given, pieces, base, POINTS)
-    return None
+    """The polygons and vertices along which those of skins and cavities run, (p,) and (n,) int64; None without such."""
+    n_points = 0
+    if (base := find_skins(given, pieces)) is None:
+        base, n_points = find_cavities(given, pieces), POINTS
+    if base is None:
+        return None
+    return nearest_polygons(given, pieces, base, n_points), nearest_vertices(given, pieces, base)
 
 
 def _may_have_skins(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:

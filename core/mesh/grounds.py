@@ -80,9 +80,10 @@ def find_standing(given: PolygonMesh) -> Standing | None:
         None if there are no grounds, or if too few polygons would be left.
     """
     mesh = given.triangles
-    stands = _standing_faces(mesh, mesh.faces)
-    if stands is not None and stands.all() and not np.array_equal(place := _by_place(mesh), mesh.faces):
-        stands = _standing_faces(mesh, place)  # the tiles of a floor share places, and may share no vertices
+    stands = _standing_faces(mesh, *mesh.vertex_components)
+    # The tiles of a floor share places, and may share no vertices.
+    if stands is not None and stands.all() and (by_place := _components_by_place(mesh)) is not None:
+        stands = _standing_faces(mesh, *by_place)
     if stands is None:
         return None
     is_standing = np.zeros(given.n_polygons, bool)
@@ -133,10 +134,9 @@ def grounds_among(labels: np.ndarray, is_ground: np.ndarray) -> np.ndarray:
     return ground & (not ground.all())
 
 
-def _standing_faces(mesh: TriMesh, corner: np.ndarray) -> np.ndarray | None:
-    """Which faces are no ground, (m,) bool; corner : (m, 3) int64, by which they hang together. None of one piece."""
-    count, of_corner = vertex_components(corner, mesh.n_vertices)
-    piece = of_corner[corner[:, 0]]
+def _standing_faces(mesh: TriMesh, count: int, of_vertex: np.ndarray) -> np.ndarray | None:
+    """Which faces are no ground, (m,) bool; None if all are one piece. of_vertex : (n,) int64, the piece of each."""
+    piece = of_vertex[mesh.faces[:, 0]]
     stands = np.bincount(piece, minlength=count) > 0
     if stands.sum() == 1:
         return None
@@ -146,10 +146,14 @@ def _standing_faces(mesh: TriMesh, corner: np.ndarray) -> np.ndarray | None:
     return stands[piece]
 
 
-def _by_place(mesh: TriMesh) -> np.ndarray:
-    """For each corner the first vertex at its place, (m, 3) int64."""
-    _, first, place = np.unique(hashed_rows(mesh.vertices), return_index=True, return_inverse=True)
-    return first[place.reshape(-1)][mesh.faces]
+def _components_by_place(mesh: TriMesh) -> tuple[int, np.ndarray] | None:
+    """What ``TriMesh.vertex_components`` is if vertices at one place are one; None if no two of them are."""
+    names, place = np.unique(hashed_rows(mesh.vertices), return_inverse=True)
+    if len(names) == mesh.n_vertices:
+        return None
+    place = place.reshape(-1)
+    count, of_place = vertex_components(place[mesh.faces], mesh.n_vertices)
+    return count, of_place[place]
 
 
 def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:
@@ -203,10 +207,10 @@ def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, high: float)
     height = np.ptp(inner_products(_weighted(mesh, others)[1], direction / shadow))
     if area[turned].sum() > TURNED * area.sum() or height < high:
         return False
-    from scipy.spatial import cKDTree  # imported here for the reason that arrays.components gives
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
     middle, place = mesh.face_centroids[mine], mesh.face_centroids[others]
-    below = cKDTree(middle).query(place)[1]
+    below = nearest(search_tree(middle), place)[1]
     above = row_products(place - middle[below], mesh.area_normals[mine][below])
     return bool(min(weight[above < 0].sum(), weight[above > 0].sum()) <= BELOW * weight.sum())
 

@@ -91,33 +91,6 @@ def measured_polygons(given: PolygonMesh) -> tuple[np.ndarray, np.ndarray, np.nd
     return area, middle, unit(sums_by(polygon, mesh.area_normals, count))
 
 
-def nearest_on(
-    given: PolygonMesh, pieces: Pieces, base: np.ndarray, n_points: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Find the nearest polygons and vertices on other pieces, which look the other way.
-
-    Parameters
-    ----------
-    given : PolygonMesh
-        p polygons, n vertices.
-    pieces : Pieces
-    base : (count,) int64
-        The piece on which those of each are sought; -1 for none.
-    n_points : int
-        How many points are scattered on each such piece to find its polygons by, beside their middles: none where it
-        has as many and as small ones as what is near it.
-
-    Returns
-    -------
-    polygon : (p,) int64
-        For each polygon of a piece with a base, one of the base; of all others, their own.
-    vertex : (n,) int64
-        The same for vertices.
-    """
-    frames = _Frames.of(pieces, base)
-    return _nearest_polygons(given, pieces, frames, n_points), _nearest_vertices(given, pieces, frames)
-
-
 @dataclass(frozen=True, eq=False)
 class _Frames:
     """Coordinates in which bases lie one beside the other, each with the pieces that have it.
@@ -153,9 +126,26 @@ class _Frames:
         return np.concatenate([place, TURN * normal], axis=1)
 
 
-def _nearest_polygons(given: PolygonMesh, pieces: Pieces, frames: _Frames, n_points: int) -> np.ndarray:
-    """For each polygon of a piece with a base one of that, and of all others their own, (p,) int64."""
-    mesh, piece = given.triangles, pieces.of_polygon
+def nearest_polygons(given: PolygonMesh, pieces: Pieces, base: np.ndarray, n_points: int) -> np.ndarray:
+    """Find the nearest polygons on other pieces, which look the other way.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+        p polygons.
+    pieces : Pieces
+    base : (count,) int64
+        The piece on which those of each are sought; -1 for none.
+    n_points : int
+        How many points are scattered on each such piece to find its polygons by, beside their middles: none where it
+        has as many and as small ones as what is near it.
+
+    Returns
+    -------
+    polygon : (p,) int64
+        For each polygon of a piece with a base, one of the base; of all others, their own.
+    """
+    mesh, piece, frames = given.triangles, pieces.of_polygon, _Frames.of(pieces, base)
     _, middle, normal = measured_polygons(given)
     own, face = np.flatnonzero(frames.is_base[piece]), np.flatnonzero(frames.is_base[piece[given.polygon]])
     weight = mesh.face_area[face] / pieces.area[piece[given.polygon[face]]]
@@ -169,9 +159,12 @@ def _nearest_polygons(given: PolygonMesh, pieces: Pieces, frames: _Frames, n_poi
     return found
 
 
-def _nearest_vertices(given: PolygonMesh, pieces: Pieces, frames: _Frames) -> np.ndarray:
-    """For each vertex of a piece with a base one of that, and of all others their own, (n,) int64."""
-    vertices, piece = given.triangles.vertices, pieces.of_place[pieces.place]
+def nearest_vertices(given: PolygonMesh, pieces: Pieces, base: np.ndarray) -> np.ndarray:
+    """For each vertex of a piece with a base the nearest one of that, and of all others their own, (n,) int64.
+
+    base : (count,) int64, as for ``nearest_polygons``.
+    """
+    vertices, piece, frames = given.triangles.vertices, pieces.of_place[pieces.place], _Frames.of(pieces, base)
     its, wanted = pieces.first[frames.is_base[pieces.of_place]], np.flatnonzero(frames.has_base[piece])
     there, here = (frames.point(vertices[some], piece[some], np.zeros((len(some), 3))) for some in (its, wanted))
     found = arange(len(vertices))
@@ -195,6 +188,6 @@ def scattered(mesh: TriMesh, face: np.ndarray, weight: np.ndarray, count: int) -
 
 def _nearest(point: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Index of the nearest point of each, (k,) int64; point : (m, d). wanted : (k, d)."""
-    from scipy.spatial import cKDTree  # imported here for the reason that arrays.components gives
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
-    return cKDTree(point).query(wanted)[1]
+    return nearest(search_tree(point), wanted)[1]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays.hashes import GOLDEN
+from ..arrays.hashes import rehashed
 from ..arrays.indexing import frozen, place_among
 from ..arrays.int64 import arange
 from ..errors import EmptyMeshError, MeshError
@@ -169,7 +169,7 @@ def hashed_polygons(mesh: PolygonMesh, corner: np.ndarray) -> tuple[np.ndarray, 
     Each side of a triangle counts with a sign for its direction, so that sides within a polygon cancel out, however it
     is cut into triangles.
     """
-    other = (corner ^ corner >> np.uint64(32)) * GOLDEN
+    other = rehashed(corner)
     corners = mesh.triangles.faces.T
     total = np.zeros(mesh.triangles.n_faces, np.uint64)
     for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):

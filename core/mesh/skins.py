@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays.hashes import GOLDEN, hashed_sets
+from ..arrays.hashes import hashed_sets, rehashed
 from ..arrays.int64 import arange, full
 from ..arrays.vectors import lengths, row_products
-from .pieces import Pieces, measured_polygons, nearest_on
+from .pieces import Pieces, measured_polygons, nearest_polygons
 from .polygons import PolygonMesh, hashed_polygons
 
 # Of the area of a skin so much is near what it is a skin of, and turned about: not farther off than the first of these,
@@ -43,7 +43,7 @@ def find_skins(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
     base[np.where(inverted, one, two)] = np.where(inverted, two, one)
     if not _are_most(pieces, base):
         return None
-    below, _ = nearest_on(given, pieces, base, 0)
+    below = nearest_polygons(given, pieces, base, 0)
     of_skin = np.flatnonzero(base[pieces.of_polygon] >= 0)
     area, middle, normal = measured_polygons(given)
     near = lengths(middle[of_skin] - middle[below[of_skin]]) <= FAR * _diameter(given)
@@ -90,9 +90,8 @@ def _kinds(given: PolygonMesh, pieces: Pieces) -> tuple[np.ndarray, np.ndarray]:
     at = np.unique(given.polygon[:, None] * len(pieces.first) + place)
     degree = np.bincount(at % len(pieces.first), minlength=len(pieces.first))
     number, _ = hashed_polygons(given, hashed_sets(arange(mesh.n_vertices), degree[pieces.place], mesh.n_vertices))
-    mixed = (number ^ number >> np.uint64(32)) * GOLDEN
     total = np.zeros(pieces.count, np.uint64)
-    np.add.at(total, pieces.of_polygon, mixed)
+    np.add.at(total, pieces.of_polygon, rehashed(number))
     size = np.bincount(pieces.of_polygon, minlength=pieces.count)
     _, kind, count = np.unique(np.stack([total, size.astype(np.uint64)], axis=1), axis=0, return_inverse=True,
                                return_counts=True)

@@ -294,6 +294,11 @@ class TriMesh:
         return np.where(convex, angle, -angle)
 
     @cached_property
+    def vertex_components(self) -> tuple[int, np.ndarray]:
+        """Number of components of the vertices, and the component of each, (n,) int64; see the function."""
+        return vertex_components(self.faces, self.n_vertices)
+
+    @cached_property
     def face_components(self) -> tuple[int, np.ndarray]:
         """Number of components of the surface, and the component of each face, (m,) int64; faces touch by edges."""
         return components(self.n_faces, *self.edges.pairs.T)

@@ -13,7 +13,7 @@ from ..arrays.indexing import bounds_of_each, stable_order, sums_by
 from ..arrays.int64 import arange
 from ..arrays.ties import ranks
 from ..arrays.vectors import cross, lengths, row_products
-from ..mesh.triangles import TriMesh, vertex_components
+from ..mesh.triangles import TriMesh
 
 
 def divided_by_shape(mesh: TriMesh, polygon: np.ndarray) -> TriMesh:
@@ -57,7 +57,7 @@ def _rows_of(polygon: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _distance_ranks(mesh: TriMesh) -> np.ndarray:
     """Rank of the distance of each vertex from the middle of the vertices of its piece, (n,) int64."""
-    count, piece = vertex_components(mesh.faces, mesh.n_vertices)
+    count, piece = mesh.vertex_components
     points = np.where(mesh.used[:, None], mesh.vertices, 0.0)  # one of no face can be anywhere
     middle = sums_by(piece, points, count) / np.bincount(piece)[:, None]
     distance = lengths(points - middle[piece])

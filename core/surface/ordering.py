@@ -29,7 +29,7 @@ from ..arrays.int64 import arange, full
 from ..arrays.ties import DENSE, TIE, ranks
 from ..arrays.vectors import inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
-from ..mesh.triangles import TriMesh, of_corners, vertex_components
+from ..mesh.triangles import TriMesh, of_corners
 from .diagonals import divided_by_shape, outer_first
 
 # The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
@@ -188,7 +188,7 @@ def _with_split_vertices(ordering: Ordering, place: np.ndarray, given: PolygonMe
 def _by_place(mesh: TriMesh, of_triangle: np.ndarray, n_polygons: int, together: bool) -> Ordering:
     """What ``sorted_by_place`` finds, of a mesh with one vertex at each place; of_triangle : (m,), the polygons."""
     ordering = Ordering.of(mesh, of_triangle, n_polygons)
-    count, piece = vertex_components(mesh.faces, mesh.n_vertices)
+    count, piece = mesh.vertex_components
     of_face = piece[mesh.faces[:, 0]]
     size = np.bincount(of_face)
     in_whole, in_given = inverse(ordering.vertex), arange(mesh.n_vertices)
