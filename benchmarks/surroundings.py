@@ -5,7 +5,8 @@
 
 Meshes are NAME.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and labels by people, ``human`` (k, m). Prints, for each
 of the things below, the Rand index error of the model's own faces against these labels, in the mean over the meshes,
-and how many parts they have; beside it those of the whole mesh. "alone" is the model as it is.
+and how many parts they have; beside it those of the whole mesh, and how many meshes there are: only closed ones become
+one surface with a ground. "alone" is the model as it is.
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ from pathlib import Path
 
 import packages
 
-packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification", "skimage")
+packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification", "skimage", "manifold3d")
 
 import numpy as np
 import trimesh
+from manifold3d import Error, Manifold, Mesh64
 from scipy.spatial import cKDTree
 from skimage.measure import marching_cubes
 from tqdm import tqdm
@@ -29,8 +31,10 @@ from core.metrics import rand_index_error
 FLOOR_SIDE = 3.0  # of a floor, in units of the largest extent of the model across
 CELLS = 48  # of the grid on which the inner wall of a hollow body is found, along its largest extent
 DUST = 200
+SCAN_NOISE = 0.1  # of a scan, in mean edges
 
 Shape = tuple[np.ndarray, np.ndarray]
+Scene = tuple[np.ndarray, np.ndarray, np.ndarray]  # vertices, faces, and the model's face that each is; -1 for others
 
 
 class Model:
@@ -181,6 +185,73 @@ def squares(n: int, m: int) -> np.ndarray:
     return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
 
 
+def in_one_mesh(model: Model, others: list[Shape]) -> Scene:
+    """The model and other things."""
+    vertices, faces = [model.vertices], [model.faces]
+    for points, triangles in others:
+        faces.append(triangles + sum(map(len, vertices)))
+        vertices.append(points)
+    source = np.full(sum(map(len, faces)), -1)
+    source[:len(model.faces)] = np.arange(len(model.faces))
+    return np.concatenate(vertices), np.concatenate(faces), source
+
+
+def slab(model: Model, thick: float) -> Shape:
+    """A floor so thick, as a share of its side; the model goes a hundredth into it."""
+    side = FLOOR_SIDE * model.extent[model.across].max()
+    size = np.full(3, side)
+    size[model.up] = thick * side
+    box = trimesh.creation.box(extents=size)
+    return box.vertices + model.placed(np.zeros((1, 2)), 0.01 * model.extent[model.up] - size[model.up] / 2), box.faces
+
+
+def terrain(model: Model, bumps: float) -> Shape:
+    """Hills to the depth of their side, closed; the model goes a twentieth into them."""
+    top, faces = floor(model, 40, bumps)
+    top[:, model.up] += 0.05 * model.extent[model.up]
+    below = top.copy()
+    below[:, model.up] = top[:, model.up].min() - np.ptp(top[:, model.across[0]])
+    number = np.arange(41 * 41).reshape(41, 41)
+    ring = np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
+    a, b = ring, np.roll(ring, -1)
+    n = len(top)
+    walls = np.concatenate([np.stack([a, a + n, b + n], axis=1), np.stack([a, b + n, b], axis=1)])
+    return np.concatenate([top, below]), np.concatenate([faces, faces[:, ::-1] + n, walls[:, ::-1]])
+
+
+def one_surface(model: Model, ground: Shape) -> Scene | None:
+    """The surface of the model and what it stands on together, without what looks down or aside of a deep ground.
+
+    None if the model is not closed.
+    """
+    solids = []
+    for vertices, faces in ((model.vertices, model.faces), ground):
+        faces = faces if trimesh.Trimesh(vertices, faces, process=False).volume > 0 else faces[:, ::-1]
+        solids.append(Manifold(Mesh64(vertices, np.ascontiguousarray(faces, np.uint64))).as_original())
+    if any(solid.status() != Error.NoError for solid in solids):
+        return None
+    found = (solids[0] + solids[1]).to_mesh64()
+    vertices, faces = np.asarray(found.vert_properties), np.asarray(found.tri_verts).astype(np.int64)
+    runs = np.diff(np.asarray(found.run_index).astype(np.int64)) // 3
+    mine = np.repeat(np.asarray(found.run_original_id) == solids[0].original_id(), runs)
+    middle = model.vertices[model.faces].mean(axis=1)
+    source = np.where(mine, cKDTree(middle).query(vertices[faces].mean(axis=1))[1], -1)
+    if np.ptp(ground[0][:, model.up]) < FLOOR_SIDE * model.extent[model.across].max():
+        return vertices, faces, source
+    normal = trimesh.Trimesh(vertices, faces, process=False).face_normals
+    kept = mine | (normal[:, model.up] > 0.1)
+    return vertices, faces[kept], source[kept]
+
+
+def noisy(scene: Scene | None) -> Scene | None:
+    """The same with vertices moved at random."""
+    if scene is None:
+        return None
+    vertices, faces, source = scene
+    edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
+    return vertices + SCAN_NOISE * edge * np.random.default_rng(0).normal(size=vertices.shape), faces, source
+
+
 SURROUNDINGS = {
     "alone": lambda model: [],
     "box, as small as can be": lambda model: [in_box(model, 0.0)],
@@ -205,17 +276,20 @@ SURROUNDINGS = {
     "block": lambda model: [block(model, 1.0, 0.5)],
     "dust": lambda model: [dust(model)],
 }
+ONE_SURFACE = {
+    "one surface with a slab": lambda model: one_surface(model, slab(model, 0.03)),
+    "one surface with hills": lambda model: one_surface(model, terrain(model, 0.03)),
+    "the same with noise": lambda model: noisy(one_surface(model, terrain(model, 0.03))),
+}
 
 
-def measure(model: Model, human: np.ndarray, others: list[Shape]) -> tuple[float, int, int]:
+def measure(human: np.ndarray, scene: Scene) -> tuple[float, int, int]:
     """Error of the model's faces, how many parts they have, and how many the whole has."""
-    vertices, faces = [model.vertices], [model.faces]
-    for points, triangles in others:
-        faces.append(triangles + sum(map(len, vertices)))
-        vertices.append(points)
-    labels = decompose(np.concatenate(vertices), np.concatenate(faces)).parts().labels
-    own = np.unique(labels[:len(model.faces)], return_inverse=True)[1]
-    error = np.mean([rand_index_error(own, np.unique(person, return_inverse=True)[1]) for person in human])
+    vertices, faces, source = scene
+    labels, mine = decompose(vertices, faces).parts().labels, source >= 0
+    own = np.unique(labels[mine], return_inverse=True)[1]
+    error = np.mean([rand_index_error(own, np.unique(person[source[mine]], return_inverse=True)[1])
+                     for person in human])
     return float(error), int(own.max()) + 1, int(labels.max()) + 1
 
 
@@ -230,13 +304,17 @@ def main() -> None:
         with np.load(path, allow_pickle=False) as data:
             models.append((Model(data["vertices"].astype(float), data["faces"].astype(np.int64), options.up),
                            data["human"]))
-    print(f"{len(models)} models{'':24} error  parts  of all")
-    for name, around in SURROUNDINGS.items():
+    print(f"{len(models)} models{'':24} error  parts  of all  models")
+    scenes = {name: lambda model, around=around: in_one_mesh(model, around(model))
+              for name, around in SURROUNDINGS.items()} | ONE_SURFACE
+    for name, scene_of in scenes.items():
         if options.only and not any(word in name for word in options.only):
             continue
-        rows = [measure(model, human, around(model)) for model, human in tqdm(models, desc=name, leave=False)]
-        error, own, whole = np.mean(rows, axis=0)
-        print(f"{name:32} {error:8.3f} {own:6.1f} {whole:7.1f}", flush=True)
+        rows = [measure(human, scene) for model, human in tqdm(models, desc=name, leave=False)
+                if (scene := scene_of(model)) is not None]
+        if rows:
+            error, own, whole = np.mean(rows, axis=0)
+            print(f"{name:32} {error:8.3f} {own:6.1f} {whole:7.1f} {len(rows):7}", flush=True)
 
 
 if __name__ == "__main__":

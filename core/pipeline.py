@@ -120,7 +120,9 @@ def decompose(
         if copies := find_copies(given):
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
             given, hint = without_copies(given, copies), hint[copies.polygon] if len(hint) else hint
-        standing = find_standing(given) if plane is None and parameters.pieces == TOGETHER else None
+        together = plane is None and parameters.pieces == TOGETHER
+        # A method that is as it was published gets each surface whole.
+        standing = find_standing(given, terrain=parameters.traits.learned) if together else None
 
     def of_another(
         vertices: np.ndarray, triangles: np.ndarray, polygon: np.ndarray, hint: np.ndarray

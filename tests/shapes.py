@@ -485,20 +485,45 @@ def rotation(rng: np.random.Generator) -> np.ndarray:
     return q * np.linalg.det(q)
 
 
-def mirrored_figure(step: float = 0.13) -> Shape:
-    """A trunk with a head, two arms and two legs: its own mirror image, face by face, in the plane x = 0."""
-    limbs = [((0, 0, 0.2), (0, 0, 1.2), 0.34), ((0, 0, 1.2), (0, 0, 1.9), 0.3), ((0, 0, 1.0), (1.3, 0.1, 1.0), 0.2),
-             ((0.2, 0, 0.2), (0.55, 0, -1.5), 0.24)]
+def _figure(points):
+    """Signed distance from a trunk with a head, two arms and two legs, on both sides of the plane x = 0."""
+    right = np.abs(points * (1, 0, 0)) + points * (0, 1, 1)
+    solid = _capsule(right, (0, 0, 0.2), (0, 0, 1.2), 0.34)
+    for limb in (((0, 0, 1.2), (0, 0, 1.9), 0.3), ((0, 0, 1.0), (1.3, 0.1, 1.0), 0.2),
+                 ((0.2, 0, 0.2), (0.55, 0, -1.5), 0.24)):
+        solid = _blend(solid, _capsule(right, *limb), 0.12)
+    return solid
+
+
+def figure_on_ground(width: float, hills: float = 0.0, deep: float | None = None, step: float = 0.13) -> Shape:
+    """The figure, its feet in a square of ground that goes up and down by ``hills`` at z = -1.5, as one surface.
+
+    The ground is open below, or so deep.
+    """
+    half = width / 2
+
+    def above(points):
+        x, y, z = points.T
+        return z + 1.5 - hills * np.sin(1.3 * x) * np.cos(1.1 * y)
 
     def distance(points):
-        right = np.abs(points * (1, 0, 0)) + points * (0, 1, 1)
-        solid = _capsule(right, *limbs[0])
-        for limb in limbs[1:]:
-            solid = _blend(solid, _capsule(right, *limb), 0.12)
-        return solid
+        x, y, _ = points.T
+        ground = np.maximum.reduce([above(points), -above(points) - (deep or 1.0), np.abs(x) - half, np.abs(y) - half])
+        return np.minimum(_figure(points), ground)
 
+    out = half + 2 * step
+    vertices, faces = level_surface(distance, (-out, -out, -3.0 - hills), (out, out, 2.4), step)
+    if deep is None:
+        faces = faces[(above(vertices) > -0.5)[faces].all(axis=1) & (np.abs(vertices[:, :2]).max(axis=1) < half - step)[
+            faces].all(axis=1)]
+    used, faces = np.unique(faces, return_inverse=True)
+    return Shape(vertices[used], faces.reshape(-1, 3))
+
+
+def mirrored_figure(step: float = 0.13) -> Shape:
+    """A trunk with a head, two arms and two legs: its own mirror image, face by face, in the plane x = 0."""
     # One layer of cells has its middles in the plane, and there, by symmetry, its vertices.
-    vertices, faces = level_surface(distance, (-12.5 * step, -0.6, -1.9), (12.5 * step, 0.6, 2.4), step)
+    vertices, faces = level_surface(_figure, (-12.5 * step, -0.6, -1.9), (12.5 * step, 0.6, 2.4), step)
     half = faces[(vertices[faces][:, :, 0] > -1e-3 * step).all(axis=1)]
     return _with_mirror_image(np.where(np.abs(vertices) < 1e-3 * step, 0.0, vertices), half)
 

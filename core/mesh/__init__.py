@@ -12,6 +12,7 @@ Where data enters:
 - ``skins``: second skins, such as an outline
 - ``cavities``: inner walls of hollow bodies
 - ``grounds``: floors, plinths and backdrops, on which the rest stands
+- ``terrain``: ground that is one surface with what stands on it, as in a scan
 - ``borders``: border vertices that are one, apart at seams only
 
 How polygons hang together:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grounds: pieces on which, or before or in which, the rest of a mesh stands, such as a floor, a plinth or a collider.
+"""Grounds: that on which, or before or in which, the rest of a mesh stands, such as a floor, a plinth or a collider.
 
 A floor has most of the area of a mesh, and beside it whatever stands on it is too small to be cut: a person on a floor
 three times as wide was one part. So a ground is left out before anything is measured, and is a part of its own.
@@ -17,7 +17,8 @@ from ..arrays.indexing import place_among, spread_evenly, taken
 from ..arrays.vectors import cross, inner_products, lengths, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
-from .triangles import TriMesh, vertex_components
+from .terrain import outline_area, rising_faces
+from .triangles import TriMesh
 
 if TYPE_CHECKING:
     from scipy.spatial import ConvexHull
@@ -27,11 +28,12 @@ SHARE, LEAST = 0.2, 1e-6
 # Its two long sides are not shorter than those of the rest and, multiplied, so many times as large. Of no more than a
 # share of the faces that is all: a backdrop, a dome, a room.
 WIDER, FEW_FACES = 3.0, 0.05
+WIDER_TERRAIN = 1.5  # if it is one surface with what stands on it
 # Otherwise these are the sides that lie across, and it is flat: its points are spread about its plane less than within
 # it by the first of these, or by the second with few faces. Doors and shields are slabs of many.
 SHEET, SLAB = 0.05, 0.4
-# The rest is so high then, at least, in units of the root of its sides across, multiplied, and no more than a share of
-# its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
+# The rest is so high then, at least, in units of the root of the area of its outline, seen from above, and no more than
+# a share of its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
 HIGH, BELOW = 0.1, 0.05
 # Or it is a relief, such as hills or a room that is open in front, seen from one direction: its shadow has at least
 # the first of these as a share of its area, and but for the second no face is turned from there, by a cosine below the
@@ -65,14 +67,17 @@ class Standing:
         return given.submesh(self.polygon, self.vertex, place_among(self.vertex, given.triangles.n_vertices))
 
 
-def find_standing(given: PolygonMesh) -> Standing | None:
+def find_standing(given: PolygonMesh, terrain: bool = True) -> Standing | None:
     """Find what stands on grounds.
 
-    Without one that was found there may be another, such as a wall behind what stands on a floor.
+    Grounds are pieces of their own, and without one that was found there may be another, such as a wall behind what
+    stands on a floor. If there are none, part of the largest piece may be one: its terrain.
 
     Parameters
     ----------
     given : PolygonMesh
+    terrain : bool
+        Whether part of a piece can be a ground.
 
     Returns
     -------
@@ -80,18 +85,19 @@ def find_standing(given: PolygonMesh) -> Standing | None:
         None if there are no grounds, or if too few polygons would be left.
     """
     mesh = given.triangles
-    stands = _standing_faces(mesh, *mesh.vertex_components)
+    stands = _standing_faces(mesh)
     # The tiles of a floor share places, and may share no vertices.
-    if stands is not None and stands.all() and (by_place := _components_by_place(mesh)) is not None:
-        stands = _standing_faces(mesh, *by_place)
-    if stands is None:
-        return None
+    if stands.all() and mesh.vertex_components[0] > 1 and (joined := _joined_by_place(mesh)) is not None:
+        mesh = joined
+        stands = _standing_faces(mesh)
+    if terrain and stands.all():
+        stands = _faces_on_terrain(mesh)
     is_standing = np.zeros(given.n_polygons, bool)
     is_standing[given.polygon[stands]] = True
     if is_standing.all() or is_standing.sum() < MIN_FACES:
         return None
-    vertex = ~mesh.used
-    vertex[mesh.faces[is_standing[given.polygon]]] = True
+    vertex = ~given.triangles.used
+    vertex[given.triangles.faces[is_standing[given.polygon]]] = True
     return Standing(np.flatnonzero(is_standing), np.flatnonzero(vertex))
 
 
@@ -134,26 +140,40 @@ def grounds_among(labels: np.ndarray, is_ground: np.ndarray) -> np.ndarray:
     return ground & (not ground.all())
 
 
-def _standing_faces(mesh: TriMesh, count: int, of_vertex: np.ndarray) -> np.ndarray | None:
-    """Which faces are no ground, (m,) bool; None if all are one piece. of_vertex : (n,) int64, the piece of each."""
+def _standing_faces(mesh: TriMesh) -> np.ndarray:
+    """Which faces are on no piece that is ground, (m,) bool; all of them of one piece."""
+    count, of_vertex = mesh.vertex_components
     piece = of_vertex[mesh.faces[:, 0]]
     stands = np.bincount(piece, minlength=count) > 0
-    if stands.sum() == 1:
-        return None
-    area = np.bincount(piece, mesh.face_area, count)
-    while (found := _ground(mesh, piece, area, stands)) is not None:
-        stands[found] = False
+    if stands.sum() > 1:
+        area = np.bincount(piece, mesh.face_area, count)
+        while (found := _ground(mesh, piece, area, stands)) is not None:
+            stands[found] = False
     return stands[piece]
 
 
-def _components_by_place(mesh: TriMesh) -> tuple[int, np.ndarray] | None:
-    """What ``TriMesh.vertex_components`` is if vertices at one place are one; None if no two of them are."""
-    names, place = np.unique(hashed_rows(mesh.vertices), return_inverse=True)
+def _joined_by_place(mesh: TriMesh) -> TriMesh | None:
+    """The mesh with vertices at one place as one; None if no two of them are."""
+    names, first, place = np.unique(hashed_rows(mesh.vertices), return_index=True, return_inverse=True)
     if len(names) == mesh.n_vertices:
         return None
-    place = place.reshape(-1)
-    count, of_place = vertex_components(place[mesh.faces], mesh.n_vertices)
-    return count, of_place[place]
+    return TriMesh(mesh.vertices, first[place.reshape(-1)[mesh.faces]])
+
+
+def _faces_on_terrain(mesh: TriMesh) -> np.ndarray:
+    """Which faces stand on terrain that is one piece with some of them, (m,) bool; all of them if there is none."""
+    _, of_vertex = mesh.vertex_components
+    piece = of_vertex[mesh.faces[:, 0]]
+    area = np.bincount(piece, mesh.face_area)
+    ground, stands = piece == area.argmax(), np.ones(mesh.n_faces, bool)
+    if area.max() < SHARE * mesh.area:
+        return stands
+    part = np.flatnonzero(ground)
+    for rising in rising_faces(mesh if ground.all() else mesh.submesh(part)[0]):
+        ground[part] = ~rising
+        if _is_ground(mesh, ground, ~ground, WIDER_TERRAIN):
+            return ~ground
+    return stands
 
 
 def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarray) -> int | None:
@@ -168,7 +188,7 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
     return None
 
 
-def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
+def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, wider: float = WIDER) -> bool:
     """Whether some faces are large beside others, and plain, or flat with the others on one side; both : (m,) bool."""
     (weight, points), (its_weight, its_points) = (_weighted(mesh, some) for some in (mine, others))
     middle = weighted_sum(weight, points) / weight.sum()
@@ -176,14 +196,18 @@ def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     own, its = inner_products(points - middle, axes.T), inner_products(its_points - middle, axes.T)
     sides, its_sides = np.ptp(own, axis=0), np.ptp(its, axis=0)
     few = mine.sum() <= FEW_FACES * (mine | others).sum()
-    wide = np.sort(its_sides)[1:]
-    if _is_larger(np.sort(sides)[1:], wide) and (few or _is_relief(mesh, mine, others, HIGH * np.sqrt(wide.prod()))):
+    if _is_larger(np.sort(sides)[1:], np.sort(its_sides)[1:], wider) and (few or _is_relief(mesh, mine, others)):
         return True
-    if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:]):
+    if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:], wider):
         return False
     thickness = np.abs(own[:, 0]).max()
     beyond = min(its_weight[side * its[:, 0] > thickness].sum() for side in (-1, 1))
-    return bool(its_sides[0] >= HIGH * np.sqrt(its_sides[1:].prod()) and beyond <= BELOW * its_weight.sum())
+    return _is_high(its_points, axes[:, 0]) and bool(beyond <= BELOW * its_weight.sum())
+
+
+def _is_high(points: np.ndarray, up: np.ndarray) -> bool:
+    """Whether points, (n, 3), are as high as what stands on a ground; up : (3,), of length 1."""
+    return bool(np.ptp(inner_products(points, up)) >= HIGH * np.sqrt(outline_area(points, up)))
 
 
 def _weighted(mesh: TriMesh, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -193,19 +217,15 @@ def _weighted(mesh: TriMesh, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return weight[there], taken(mesh.vertices, there)
 
 
-def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, high: float) -> bool:
-    """Whether some faces are all seen from one direction, with the others before them, and as high as that.
-
-    mine, others : (m,) bool. high : float, in the unit of the vertices.
-    """
+def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
+    """Whether some faces are all seen from one direction, with the others before them; both : (m,) bool."""
     area, weight = mesh.face_area[mine], mesh.face_area[others]
     direction = mesh.area_normals[mine].sum(axis=0)
     shadow = np.linalg.norm(direction)
     if shadow < SHADOW * area.sum() or weight.sum() < REST * area.sum():
         return False
     turned = inner_products(mesh.area_normals[mine], direction / shadow) < AWAY * lengths(mesh.area_normals[mine])
-    height = np.ptp(inner_products(_weighted(mesh, others)[1], direction / shadow))
-    if area[turned].sum() > TURNED * area.sum() or height < high:
+    if area[turned].sum() > TURNED * area.sum() or not _is_high(_weighted(mesh, others)[1], direction / shadow):
         return False
     from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
@@ -250,6 +270,6 @@ def _depth(hull: ConvexHull, points: np.ndarray) -> np.ndarray:
     return depth
 
 
-def _is_larger(sides: np.ndarray, its_sides: np.ndarray) -> bool:
-    """Whether a rectangle of two sides has room for another, (2,) each, and for more."""
-    return bool((sides >= its_sides).all() and sides.prod() >= WIDER * its_sides.prod())
+def _is_larger(sides: np.ndarray, its_sides: np.ndarray, times: float) -> bool:
+    """Whether a rectangle of two sides has room for another, (2,) each, and is so many times as large."""
+    return bool((sides >= its_sides).all() and sides.prod() >= times * its_sides.prod())
