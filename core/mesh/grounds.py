@@ -168,10 +168,10 @@ def _faces_on_terrain(mesh: TriMesh) -> np.ndarray:
     ground, stands = piece == area.argmax(), np.ones(mesh.n_faces, bool)
     if area.max() < SHARE * mesh.area:
         return stands
-    part = np.flatnonzero(ground)
+    part, elsewhere = np.flatnonzero(ground), ~ground
     for rising in rising_faces(mesh if ground.all() else mesh.submesh(part)[0]):
         ground[part] = ~rising
-        if _is_ground(mesh, ground, ~ground, WIDER_TERRAIN):
+        if _is_ground(mesh, ground, ~ground, WIDER_TERRAIN, elsewhere):
             return ~ground
     return stands
 
@@ -188,15 +188,22 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
     return None
 
 
-def _is_ground(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, wider: float = WIDER) -> bool:
-    """Whether some faces are large beside others, and plain, or flat with the others on one side; both : (m,) bool."""
+def _is_ground(
+    mesh: TriMesh, mine: np.ndarray, others: np.ndarray, wider: float = WIDER, loose: np.ndarray | None = None
+) -> bool:
+    """Whether some faces are large beside others, and plain, or flat with the others on one side; both : (m,) bool.
+
+    loose : (m,) bool, those of the others that may be on the other side of a relief than most are; all of them without
+    it.
+    """
     (weight, points), (its_weight, its_points) = (_weighted(mesh, some) for some in (mine, others))
     middle = weighted_sum(weight, points) / weight.sum()
     spread, axes = np.linalg.eigh(second_moments(points - middle, weight))
     own, its = inner_products(points - middle, axes.T), inner_products(its_points - middle, axes.T)
     sides, its_sides = np.ptp(own, axis=0), np.ptp(its, axis=0)
     few = mine.sum() <= FEW_FACES * (mine | others).sum()
-    if _is_larger(np.sort(sides)[1:], np.sort(its_sides)[1:], wider) and (few or _is_relief(mesh, mine, others)):
+    if _is_larger(np.sort(sides)[1:], np.sort(its_sides)[1:], wider) and (
+            few or _is_relief(mesh, mine, others, others if loose is None else loose)):
         return True
     if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:], wider):
         return False
@@ -217,8 +224,8 @@ def _weighted(mesh: TriMesh, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return weight[there], taken(mesh.vertices, there)
 
 
-def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
-    """Whether some faces are all seen from one direction, with the others before them; both : (m,) bool."""
+def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray, loose: np.ndarray) -> bool:
+    """Whether some faces are all seen from one direction, with the others before them; all : (m,) bool."""
     area, weight = mesh.face_area[mine], mesh.face_area[others]
     direction = mesh.area_normals[mine].sum(axis=0)
     shadow = np.linalg.norm(direction)
@@ -227,12 +234,16 @@ def _is_relief(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     turned = inner_products(mesh.area_normals[mine], direction / shadow) < AWAY * lengths(mesh.area_normals[mine])
     if area[turned].sum() > TURNED * area.sum() or not _is_high(_weighted(mesh, others)[1], direction / shadow):
         return False
+    if not loose.any():
+        return True
     from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
-    middle, place = mesh.face_centroids[mine], mesh.face_centroids[others]
+    middle, place, theirs = mesh.face_centroids[mine], mesh.face_centroids[loose], mesh.face_area[loose]
     below = nearest(search_tree(middle), place)[1]
-    above = row_products(place - middle[below], mesh.area_normals[mine][below])
-    return bool(min(weight[above < 0].sum(), weight[above > 0].sum()) <= BELOW * weight.sum())
+    above = theirs * np.sign(row_products(place - middle[below], mesh.area_normals[mine][below]))
+    rising = mesh.face_centroids[others & ~loose]
+    side = above.sum() if not len(rising) else (rising.mean(axis=0) - middle.mean(axis=0)) @ direction
+    return bool(theirs[above < 0 if side >= 0 else above > 0].sum() <= BELOW * weight.sum())
 
 
 def _is_shell(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:

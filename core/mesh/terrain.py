@@ -31,8 +31,9 @@ from .triangles import TriMesh
 LEVEL = 0.5
 # Seen from above, the outline of all has at least so many times the area of that of what stands there.
 WIDER = 1.5
-# Height of hills, in units of the root of the area of the whole outline. What stands there is higher.
-HILL = 0.05
+# Height of hills, in units of the root of the area of the whole outline. What stands there is higher, or, if all of it
+# is low, higher than this share of the highest.
+HILL, LOW = 0.05, 0.25
 # Terrain covers this share of the outline, at least, and this share of the area, at most, is lower by more than a hill:
 # if it is solid, it is as thin.
 COVERED, BELOW = 0.5, 0.1
@@ -134,7 +135,7 @@ class View:
         below = self.mesh.face_area[level < -self.hill].sum()
         if covered < COVERED * self.outline or below > BELOW * self.mesh.area:
             return False
-        high = level > self.hill
+        high = level > min(self.hill, level.max() / 2)
         return bool(high.any()) and self.is_wider_than(high)
 
     def rising(self, normals: np.ndarray) -> np.ndarray:
@@ -152,8 +153,8 @@ class View:
         n_sides, foot = middles_of_each(
             region[seam[~terrain[seam]]], self.level[seam[terrain[seam]]][:, None], np.ones(len(seam)), count)
         middle = middles_of_each(region, self.level[:, None], mesh.face_area, count)[1]
-        top = bounds_of_each(region, self.level, count)[1]
-        rises = (n_sides > 0) & (middle > foot)[:, 0] & (top > foot[:, 0] + self.hill)
+        rise = np.where(n_sides > 0, bounds_of_each(region, self.level, count)[1] - foot[:, 0], 0.0)
+        rises = (middle > foot)[:, 0] & (rise > min(self.hill, LOW * rise.max()))
         return rises[region] & ~terrain
 
     def _outline_of(self, faces: np.ndarray) -> float:
