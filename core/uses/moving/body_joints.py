@@ -63,8 +63,8 @@ def body_joints(table: CornerTable, labels: np.ndarray, ground: np.ndarray | Non
     -------
     joints : BodyJoints
     """
-    pairs, joint, middle, weight = _cuts(table, labels)
     ground = np.zeros(int(labels.max()) + 1, bool) if ground is None else ground
+    pairs, joint, middle, weight = _cuts(table.within(~ground[labels]), labels)
     contacts = touching_groups(table, labels, pairs, ground)
     pairs = np.concatenate([pairs, *([pair] for pair, _ in contacts)])
     joint = np.concatenate([joint, *(full(len(some), len(pairs) - len(contacts) + k)

@@ -93,7 +93,12 @@ class BoneSurface:
     @property
     def diagonal(self) -> float:
         """Diagonal of the bounding box of all that is no ground, in units of the vertices."""
-        return self.table.within(~self.grounds[self.labels]).diagonal
+        return self.off_ground.diagonal
+
+    @property
+    def off_ground(self) -> CornerTable:
+        """The table of all that is no ground, which holds nothing, also as one surface with what stands there."""
+        return self.table.within(~self.grounds[self.labels])
 
     def joined(self) -> BoneSurface:
         """The surface on vertices of which no two, as files split them, are at one place."""
@@ -149,8 +154,8 @@ def _tails(surface: BoneSurface, head: np.ndarray, middle: np.ndarray, parent: n
 class _Joints:
     """Where parts hold together.
 
-    table, cuts : of the parts. pairs : (e, 2), parts that touch. length : (e,), of the cut between them, as nothing
-    where they touch without one. contacts : the places of the latter, (r, 3), by the two parts.
+    table, cuts : of the parts that are no grounds. pairs : (e, 2), parts that touch. length : (e,), of the cut between
+    them, as nothing where they touch without one. contacts : the places of the latter, (r, 3), by the two parts.
     """
 
     table: CornerTable
@@ -162,7 +167,7 @@ class _Joints:
     @classmethod
     def between(cls, surface: BoneSurface) -> _Joints:
         """Cuts, and contacts between what no cuts connect, with their images at a plane."""
-        table, labels, images = surface.table, surface.labels, surface.images
+        table, labels, images = surface.off_ground, surface.labels, surface.images
         low, high = table.edge_labels(labels)
         cut = np.flatnonzero(low < high)
         pairs, which = distinct_pairs(low[cut], high[cut])

@@ -64,9 +64,9 @@ def _hanging(bones: Bones, neck: np.ndarray, images: PartImages | None) -> np.nd
 
 def _necks(surface: BoneSurface, bones: Bones) -> np.ndarray:
     """Whether each bone begins at a neck, (count,) bool; true for roots. surface : joined."""
-    table, labels, area = surface.table, surface.labels, surface.area
+    table, labels, area = surface.off_ground, surface.labels, surface.area
     low, high = table.edge_labels(labels)
-    center = table.face_means(table.vertices)
+    center, standing = surface.table.face_means(table.vertices), ~surface.grounds[labels]
     beyond, neck, cuts = following(bones.parent, bones.order), bones.parent < 0, CutEdges.of(table, labels)
     for bone in np.flatnonzero(~neck).tolist():
         border, length, middle = border_of(table, cuts, beyond[bone])
@@ -77,6 +77,6 @@ def _necks(surface: BoneSurface, bones: Bones) -> np.ndarray:
         own = length[(low[border] == pair[0]) & (high[border] == pair[1])].sum()
         radius = np.linalg.norm(table.vertices[table.edges[border]].mean(axis=1) - middle, axis=1).max()
         away = [np.linalg.norm((area[side, None] * center[side]).sum(axis=0) / max(area[side].sum(), 1e-300) - middle)
-                for side in (beyond[bone][labels], ~beyond[bone][labels])]
+                for side in (standing & beyond[bone][labels], standing & ~beyond[bone][labels])]
         neck[bone] = own >= _OWN * length.sum() and min(away) >= _AWAY * radius
     return neck

@@ -32,12 +32,21 @@ SETTINGS = ("decompose", "separate", "unwrap", "armature", "hulls", "rigid_bodie
 BOUNDS = {"n_slabs": (3, 60), "n_clusters": (2, 20), "bed": (1000.0, 5000.0)}
 
 
+def _shape(rng):
+    """A tree, now and then on a floor, or a figure that is one surface with the ground."""
+    if (chance := rng.random()) < 0.15:
+        return shapes.figure_on_ground(5.0, step=0.35)
+    tree = shapes.tube_tree(int(rng.integers(1, 5)), float(rng.choice([0.25, 0.3, 0.4])))
+    floor = shapes.moved(shapes.flat_grid(4, 4, 3.0), (-6, -6, tree.vertices[:, 2].min()))
+    return shapes.together(tree, floor) if chance < 0.3 else tree
+
+
 class Walk:
     """A scene with an object, and steps that a user could take in it."""
 
     def __init__(self, rng, make):
         self.rng = rng
-        make(shapes.tube_tree(int(rng.integers(1, 5)), float(rng.choice([0.25, 0.3, 0.4]))))
+        make(_shape(rng))
         if rng.random() < 0.5:
             furnish(bpy.context.object)
         if rng.random() < 0.3:

@@ -24,6 +24,9 @@ SHAPES = {
     "crumbs": lambda rng: shapes.crumbs(int(rng.integers(1, 80)), int(rng.integers(100))),
     "soup": lambda rng: _soup(rng),
     "figure": lambda rng: shapes.mirrored_figure(0.4),
+    "scan": lambda rng: shapes.figure_on_ground(float(rng.uniform(3, 9)), float(rng.choice([0.0, 0.3])), step=0.4),
+    "floor": lambda rng: shapes.together(shapes.tube_tree(2, 0.4), shapes.moved(shapes.flat_grid(
+        *rng.integers(1, 8, 2).tolist(), float(rng.uniform(0.5, 3))), (-4, -4, -0.4))),
     "fan": lambda rng: _fan(rng),
     "pages": lambda rng: _pages(rng),
     "tetrahedra": lambda rng: _tetrahedra(rng),

@@ -92,6 +92,9 @@ def test_nothing_is_joined_to_a_ground():
     table = three_boxes(gap=0.05)
     labels = np.repeat([0, 1, 2], table.n_faces // 3)
     assert len(body_joints(table, labels, np.array([True, False, False])).pairs) == 0
+    one_surface = CornerTable.of(*shapes.flat_grid(3, 1))
+    for ground, pairs in (([False] * 3, [[0, 1], [1, 2]]), ([True, False, False], [[1, 2]])):
+        assert body_joints(one_surface, np.repeat([0, 1, 2], 2), np.array(ground)).pairs.tolist() == pairs
 
 
 def test_no_joint_where_nothing_touches():

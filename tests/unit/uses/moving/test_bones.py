@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
+from core import decompose
 from core.mesh.corners import CornerTable
 from core.symmetry.plane import MirrorPlane
 from core.uses.moving.bones import BoneSurface, part_bones
@@ -230,6 +231,30 @@ def test_what_stands_on_a_floor_does_not_hang_on_it(wide, twin):
     np.testing.assert_allclose(found.head[:4], alone.head)
     np.testing.assert_allclose(found.tail[:4], alone.tail)
     assert boxes(*places, floor, twin=twin, ground=ground, limbs=True)[1].tolist() == [0, 1, 2, 3, 4]
+
+
+def test_what_is_one_surface_with_the_ground_has_the_bones_that_it_has_alone():
+    """With a scan's ground, all of a figure was one limb of it."""
+    shape = shapes.figure_on_ground(5.0, step=0.2)
+    found = decompose(*shape)
+    parts = found.parts()
+    standing = ~parts.ground[parts.labels]
+
+    def bones(make, faces, labels, ground=None):
+        table = CornerTable.of(shape.vertices, faces)
+        area = np.linalg.norm(table.face_vectors(), axis=1)
+        return make(BoneSurface(table, labels, area, found.field, np.zeros((0, 3)), np.zeros(0, int), ground=ground))
+
+    kept, labels = np.unique(parts.labels[standing], return_inverse=True)
+    with_ground = bones(part_bones, shape.faces, parts.labels, parts.ground)
+    alone = bones(part_bones, shape.faces[standing], labels)
+    assert with_ground.parent[parts.ground].tolist() == [-1]
+    assert with_ground.parent[kept].tolist() == np.append(kept, -1)[alone.parent].tolist()
+    np.testing.assert_allclose(with_ground.head[kept], alone.head, atol=1e-9)
+    limbs, of_limb, _ = bones(limb_bones, shape.faces, parts.labels, parts.ground)
+    assert kept[bones(limb_bones, shape.faces[standing], labels)[1]].tolist() == [
+        part for part in of_limb if not parts.ground[part]]
+    assert len(limbs.head) >= 5
 
 
 def test_a_head_does_not_end_at_its_eyes():
