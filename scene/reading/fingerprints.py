@@ -26,9 +26,7 @@ def forget() -> None:
 
 def fingerprint(mesh: bpy.types.Mesh) -> str:
     """Changes when the mesh is edited: its basis positions or its faces. Not in Edit Mode."""
-    # The edges of the corners tell where a face ends, and can be read much faster than that.
-    arrays = (mesh_arrays.basis_points(mesh), mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh),
-              np.array([len(mesh.polygons)], np.int64))
+    arrays = (*_arrays_of(mesh), _count(len(mesh.polygons)))
     # While a slider is dragged, all is as it was a moment ago; to compare is faster than to digest.
     for known, made in _digested:
         if all(np.array_equal(a.view(np.int32), b.view(np.int32)) for a, b in zip(arrays, known, strict=True)):
@@ -36,6 +34,24 @@ def fingerprint(mesh: bpy.types.Mesh) -> str:
     fresh = digest(*arrays)
     _digested[:] = [(arrays, fresh)]
     return fresh
+
+
+def _arrays_of(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Basis positions, and the vertex and the edge of each corner."""
+    # The edges of the corners tell where a face ends, and can be read much faster than that.
+    return mesh_arrays.basis_points(mesh), mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh)
+
+
+def _count(n_faces: int) -> np.ndarray:
+    """How many faces there are, as it goes into a fingerprint."""
+    return np.array([n_faces], np.int64)
+
+
+def begins_as(mesh: bpy.types.Mesh, known: str, n_vertices: int, n_faces: int) -> bool:
+    """Whether the first vertices and faces of a mesh are what it was when it had a fingerprint. Not in Edit Mode."""
+    points, *corners = _arrays_of(mesh)
+    end = int(mesh_arrays.face_sizes(mesh)[:n_faces].sum())
+    return digest(points[:n_vertices], *(corner[:end] for corner in corners), _count(n_faces)) == known
 
 
 def keep_shape(fingerprint: str) -> None:

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.int64 import arange
+from ...core.arrays.pairs import are_among
 from ...core.arrays.vectors import middles_of_each
 from ...core.mesh.labels import majority
 from ...core.parameters import Parameters
@@ -19,7 +20,7 @@ from ..bridge import Shape
 from ..changes import pins
 from ..errors import SceneError
 from ..outputs import face_attribute
-from ..reading import mesh_arrays
+from ..reading import fingerprints, mesh_arrays
 from ..result import part_names
 from ..store import Stored
 from ..transaction import keep_result
@@ -66,6 +67,7 @@ def succeed(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition) -
         pinned = np.where(np.isin(previous, locked), previous, 0)
     elif former is not None:
         if old is None:
+            former = _without_joined(obj.data, former)
             _forget_deleted(obj.data, former.number)
             former = _copies_apart(obj, shape, decomposition, former)
         previous, pinned = former.of_candidates(decomposition)
@@ -146,33 +148,52 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
     return scraps_joined(finer, pinned, former.number)
 
 
-def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition, former: _Former) -> _Former:
-    """Let pinned parts that an edit has put in several places, as Mirror and Array do, be a pinned part in each.
+def _without_joined(mesh: bpy.types.Mesh, former: _Former) -> _Former:
+    """Take the faces that Join has brought from other meshes for new ones: their numbers are those of other lists.
 
-    The one that is nearest to where the part was keeps its number; what is less than half as large stays with it.
+    It puts them behind the mesh's own, as Array and Duplicate do with copies, of which there are whole parts.
+    """
+    result, n = mesh.reeb_parts, mesh.reeb_parts.n_faces
+    if len(former.number) <= n or not fingerprints.begins_as(mesh, result.fingerprint, result.n_vertices, n):
+        return former
+    width = int(former.number.max()) + 1
+    own, more = (np.bincount(faces, minlength=width) for faces in (former.number[:n], former.number[n:]))
+    foreign = (own == 0) | (more % np.maximum(own, 1) > 0)
+    joined = (arange(len(former.number)) >= n) & foreign[former.number]
+    return _Former(np.where(joined, 0, former.number), np.where(joined, 0, former.pinned))
+
+
+def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition, former: _Former) -> _Former:
+    """Let parts that an edit has put in several places, as Mirror and Array do, be another part in each.
+
+    The one that is nearest to where the part was keeps its number; what is less than half as large stays with it. The
+    others of a pinned part are pinned, too, those of another one are new.
     """
     from ...core.result.editing.changes import components_of
 
     mesh = obj.data
-    if not former.pinned.any():
-        return former
     try:
         before = store.last(mesh)
     except SceneError:
         return former
-    touching = bridge.face_graph(obj, shape)[0].with_contacts(decomposition.contacts)
-    _, piece = touching.regions(np.where(former.pinned > 0, former.pinned, -1))
+    contacts = decomposition.contacts[~are_among(decomposition.contacts, decomposition.links)]  # links are no contacts
+    touching = bridge.face_graph(obj, shape)[0].with_contacts(contacts)
+    piece = touching.regions(former.number)[1]
     number, pinned, (center, area) = former.number.copy(), former.pinned.copy(), mesh_arrays.face_middles(mesh)
+    several = np.bincount(former.number[np.unique(piece, return_index=True)[1]]) > 1  # of each number
     for part in mesh.reeb_parts.parts:
-        there = np.flatnonzero(former.pinned == part.number)
-        pieces, place = np.unique(piece[there], return_inverse=True)
-        if len(pieces) < 2 or components_of(before.decomposition, before.shown == part.number).max() > 0:
+        if not (0 < part.number < len(several) and several[part.number]):
             continue
-        size, middle = middles_of_each(place, center[there], area[there] + 1e-300, len(pieces))
+        if components_of(before.decomposition, before.shown == part.number).max() > 0:
+            continue
+        there = np.flatnonzero(former.number == part.number)
+        place = np.unique(piece[there], return_inverse=True)[1]
+        size, middle = middles_of_each(place, center[there], area[there] + 1e-300, int(place.max()) + 1)
         stays = int(np.linalg.norm(middle - np.array(part.middle), axis=1).argmin())
         for index in set(np.flatnonzero(2 * size > size[stays]).tolist()) - {stays}:
-            new = pins.free_number(mesh, before, np.unique(number).tolist())
-            number[there[place == index]] = pinned[there[place == index]] = new
+            copy = there[place == index]
+            new = pins.free_number(mesh, before, np.unique(number).tolist()) if former.pinned[copy[0]] else 0
+            number[copy] = pinned[copy] = new
     return _Former(number, pinned)
 
 
