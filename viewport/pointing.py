@@ -183,15 +183,16 @@ class Model:
             return None
         return _on_line(self.shown_lines, segment, share)
 
-    def along(self, context: bpy.types.Context, obj: bpy.types.Object, start: Vector,
-              direction: Vector) -> Target | None:
-        """The place of the surface, as it is shown, that a ray meets first; all in the world."""
+    def along(self, context: bpy.types.Context, obj: bpy.types.Object, start: ArrayLike,
+              direction: ArrayLike) -> Target | None:
+        """The place of the surface, as it is shown, that a ray meets first; (3,) float each, in the world."""
         back = obj.matrix_world.inverted_safe()
-        ahead = back.to_3x3() @ direction
+        ahead = back.to_3x3() @ Vector(direction)
         if not ahead.length:
             return None
         surface = self.look(context, obj)
-        location, _, face, _ = surface.tree.ray_cast(back @ start, ahead)
+        place = back @ Vector(_ahead_to(surface.box, obj.matrix_world, start, direction))
+        location, _, face, _ = surface.tree.ray_cast(place, ahead)
         if face is None:
             return None
         location = np.array(location)
@@ -212,6 +213,8 @@ class SeenSurface:
     uid : int
         Of the object.
     points : (k, 3) float32
+    box : (8, 3) float64
+        The corners of the box around them.
     n_faces : int
     tree : BVHTree
     face_center, face_normal : (p, 3) float64
@@ -220,6 +223,7 @@ class SeenSurface:
 
     uid: int
     points: np.ndarray
+    box: np.ndarray
     n_faces: int
     tree: BVHTree
     face_center: np.ndarray
@@ -242,8 +246,27 @@ def _surface_of(context: bpy.types.Context, obj: bpy.types.Object) -> SeenSurfac
             _surfaces[0].points, points):
         _surfaces.clear()
         tree = BVHTree.FromObject(obj, depsgraph)
-        _surfaces.append(SeenSurface(obj.session_uid, points, n_faces, tree, *seen_points.seen_faces(context, obj)))
+        _surfaces.append(SeenSurface(obj.session_uid, points, _box_around(points), n_faces, tree,
+                                     *seen_points.seen_faces(context, obj)))
     return _surfaces[0]
+
+
+def _box_around(points: np.ndarray) -> np.ndarray:
+    """The corners of the box around points, (k, 3): (8, 3) float64."""
+    ends = np.array([points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)], np.float64)
+    return np.stack(np.meshgrid(*ends.T), axis=-1).reshape(-1, 3)
+
+
+def _ahead_to(box: np.ndarray, matrix: Matrix, start: ArrayLike, direction: ArrayLike) -> np.ndarray:
+    """Where a ray comes near to a box, (8, 3) corners that a matrix takes to the world; all in the world, (3,) float64.
+
+    Where it starts, if that is nearer: what follows is worked out in single precision.
+    """
+    start, direction = np.asarray(start, np.float64), np.asarray(direction, np.float64)
+    whole = np.array(matrix, np.float64)
+    height = (box @ whole[:3, :3].T + whole[:3, 3] - start) @ direction / (direction @ direction)
+    before = height.min() - 0.1 * np.ptp(height)
+    return start + max(before, 0.0) * direction if np.isfinite(before) else start
 
 
 _models: list[tuple[tuple, Model]] = []  # the last one, with what it was read of
@@ -293,20 +316,27 @@ def in_view(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region) -> 
     return seen
 
 
-def ray_of(region: bpy.types.Region, mouse: Sequence[float] | np.ndarray) -> tuple[Vector, Vector]:
-    """Where what is seen at a (2,) place of a region begins, in the world, and which way one looks there."""
+def ray_of(region: bpy.types.Region, mouse: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where what is seen at a (2,) place of a region begins, in the world, and which way one looks there.
+
+    Returns (3,) float64 each. A view without perspective begins as far away as it sees, a thousand meters, so that
+    single precision would miss the faces of a model of a few millimeters.
+    """
     view = region.data
-    start = view3d_utils.region_2d_to_origin_3d(region, view, mouse)
-    ahead = view3d_utils.region_2d_to_vector_3d(region, view, mouse)
-    if not view.is_perspective and view.view_perspective == "CAMERA":
-        # Blender's function begins in the middle of the depth that the camera sees, behind most models.
-        start -= view.perspective_matrix.inverted().col[2].xyz
+    if view.is_perspective:
+        start = np.array(view3d_utils.region_2d_to_origin_3d(region, view, mouse), np.float64)
+        ahead = np.array(view3d_utils.region_2d_to_vector_3d(region, view, mouse), np.float64)
+    else:
+        # Where Blender's matrices take the middle of the depth that is seen, in the middle of the view, and its axes.
+        across, up, deep, middle = np.linalg.inv(np.array(view.perspective_matrix, np.float64))[:3].T
+        x, y = 2.0 * np.asarray(mouse, np.float64) / (region.width, region.height) - 1.0
+        start, ahead = middle + x * across + y * up - deep, deep / np.linalg.norm(deep)
     into = 0.0
     for plane in clip_planes(view):
-        height, rise = plane[:3] @ np.array(start) + plane[3], plane[:3] @ np.array(ahead)
+        height, rise = plane[:3] @ start + plane[3], plane[:3] @ ahead
         if height < 0.0 < rise:
             into = max(into, -height / rise)
-    return start + float(into) * ahead, ahead
+    return start + into * ahead, ahead
 
 
 def viewport_region(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Region, tuple[float, float]] | None:

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from mathutils import Matrix, Vector
+from mathutils import Euler, Matrix, Vector
 from results import numbers, same_partition
 from snapshot import activate, check_undo, snapshot
 
@@ -233,6 +233,31 @@ def test_rays_begin_where_a_camera_is(package, scene, kind):
     start, ahead = sys.modules[f"{package}.viewport.pointing"].ray_of(region, (200, 200))
     assert start[:] == pytest.approx(camera.location[:], abs=0.1 + 1e-3)  # it sees from its near end, 0.1 ahead
     assert ahead[:] == pytest.approx((0.0, 0.0, -1.0), abs=1e-5)
+
+
+def seen_without_perspective(middle, turn, size, depth=500.0):
+    """A view as Blender makes it: of what is this far to either side of a place, as deep as by the settings."""
+    view = (Matrix.Translation(middle) @ turn.to_matrix().to_4x4()).inverted()
+    window = Matrix.Diagonal((1 / size, 1 / size, -1 / depth, 1.0))
+    data = SimpleNamespace(view_matrix=view, perspective_matrix=window @ view, is_perspective=False,
+                           view_perspective="ORTHO", use_clip_planes=False, clip_planes=[[0.0] * 4] * 6)
+    return SimpleNamespace(width=400, height=400, data=data)
+
+
+def test_without_perspective_rays_meet_what_is_small(package, obj, result):
+    """They begin at the far end of the view, 500 m away: on a model of 5 mm they missed the pointer by whole faces."""
+    pointing = sys.modules[f"{package}.viewport.pointing"]
+    model, turn, found = pointing.Model(obj), Euler((1.0, 0.2, 0.7)), {}
+    for scale, middle in ((1.0, (0.0, 0.0, 0.0)), (0.001, (0.3, 0.2, 0.1))):
+        obj.scale, obj.location = (scale,) * 3, middle
+        bpy.context.view_layer.update()
+        region = seen_without_perspective(middle, turn, 2.5 * scale)
+        found[scale] = [model.along(bpy.context, obj, *pointing.ray_of(region, (x, y)))
+                        for x in range(5, 400, 15) for y in range(5, 400, 15)]
+    large, small = found.values()
+    pairs = [(a, b) for a, b in zip(large, small, strict=True) if a is not None and b is not None]
+    assert len(pairs) > 80
+    np.testing.assert_allclose([b.location for _, b in pairs], [a.location for a, _ in pairs], atol=1e-3)
 
 
 def bent(obj, *modifiers):
