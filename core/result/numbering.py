@@ -137,7 +137,8 @@ def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) ->
             numbers[new] = number
             taken.add(number)
     left_over = np.flatnonzero(numbers == 0)
-    free = np.setdiff1d(arange(1, count + len(pairs) + len(left_over) + 1), previous_number)
+    used = np.unique(previous_number)
+    free = np.setdiff1d(arange(1, len(used) + len(left_over) + 1), used)
     numbers[left_over] = free[: len(left_over)]
     return numbers
 

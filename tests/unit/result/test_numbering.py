@@ -50,6 +50,12 @@ def test_follow_gives_new_parts_numbers_nobody_had():
     assert follow(part, former, np.array([3.0, 1.0, 1.0, 1.0])).tolist() == [1, 2, 3]
 
 
+def test_follow_has_a_number_for_a_part_that_holds_a_little_of_many():
+    """The largest number in it went to another part, and so few were looked at that none was free."""
+    part, former = np.array([0, 1, *[1] * 8]), np.array([1, 1, *range(2, 10)])
+    assert follow(part, former, np.array([10.0, 5.0, *[1.0] * 8])).tolist() == [1, 10]
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_follow_of_the_same_parts_is_the_identity(seed):
     rng = np.random.default_rng(seed)
