@@ -12,6 +12,7 @@ from typing import Any
 
 from .core.errors import ReebError
 from .core.sentence import Sentence
+from .damaged_files import DamagedFileError
 
 _DRACO, _MESHOPT = "KHR_draco_mesh_compression", ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _INSTANCING = "EXT_mesh_gpu_instancing"
@@ -21,19 +22,22 @@ _FAN = 6  # a primitive's mode
 def read_header(path: Path) -> dict[str, Any]:
     """The description in a file, which of a .glb is its first chunk; the numbers behind that are not read.
 
-    Raises ValueError if there is none, OSError if the file cannot be read.
+    Raises DamagedFileError if there is none, OSError if the file cannot be read.
     """
     with path.open("rb") as file:
         data = file.read(20)
         if data[:4] != b"glTF":
             data += file.read()
         elif len(data) < 20:
-            raise ValueError("it ends in its head")
+            raise DamagedFileError(Sentence("it ends in its head"))
         else:
             data = file.read(struct.unpack_from("<I", data, 12)[0])
-    header = json.loads(data.decode("utf-8-sig", errors="replace"))
+    try:
+        header = json.loads(data.decode("utf-8-sig", errors="replace"))
+    except (ValueError, RecursionError) as error:
+        raise DamagedFileError(Sentence("its description of a scene is no JSON ({words})", words=error)) from error
     if not isinstance(header, dict):
-        raise ValueError("it has no description of a scene")
+        raise DamagedFileError(Sentence("it has no description of a scene"))
     return header
 
 

@@ -27,11 +27,12 @@ from .core.mesh.arguments import corners, positions
 from .core.mesh.ears import fans, without_folds
 from .core.mesh.triangles import check_corners
 from .core.sentence import Sentence
+from .damaged_files import DamagedFileError, read_by
 from .gltf_checks import read_header, unread
 from .obj_files import parse_obj
 from .off_files import parse_off
 from .ply_files import ASCII, read_ply
-from .polygons_in_files import NOT_THERE, plain_text
+from .polygons_in_files import NO_PLACES, NOT_THERE, plain_text
 from .stl_files import parse_stl
 
 #: Files that Blender alone can read, see ``blender_export``.
@@ -178,10 +179,10 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     except ImportError as error:
         raise NoReaderError(Sentence("{path} needs a package that is not there ({reason}). What most files need comes "
                                      'with pip install "reeb-parts[formats]".', path=path, reason=error)) from error
-    except Exception as error:  # whatever a reader of damaged files raises
-        if lacks_memory(str(error)):
-            raise MemoryError from error
-        raise _unreadable(path, f"{type(error).__name__}: {str(error) or 'it is damaged'}") from error
+    except OSError as error:
+        # Of a file that the model names, say which.
+        other = error.filename and os.path.basename(error.filename) != path.name
+        raise _unreadable(path, f"{error.strerror}: {error.filename}" if other else str(error.strerror)) from error
 
 
 def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -191,7 +192,7 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         if file.read(2) != b"PK":  # or it would be taken for Python's own objects
             raise ReebError(_NO_ARRAYS)
         file.seek(0)
-        with np.load(file, allow_pickle=False) as data:
+        with read_by("NumPy"), np.load(file, allow_pickle=False) as data:
             try:
                 vertices, faces = data["vertices"], data["faces"]
             except (KeyError, ValueError) as error:  # there are none, or they are Python's own objects
@@ -218,25 +219,31 @@ def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a .glb or .gltf; raises NoReaderError where some would be missing."""
-    if name := unread(read_header(path)):
+    header = read_header(path)
+    try:
+        name = unread(header)
+    except (LookupError, TypeError, AttributeError) as error:
+        raise DamagedFileError(Sentence("its description of a scene lacks something, or has something else in its "
+                                        "place ({words})", words=f"{type(error).__name__}: {error}")) from error
+    if name:
         raise NoReaderError(Sentence("{path} has {name}, which nothing here reads. Save it without, or as a .blend or "
                                      ".fbx, which Blender reads with --blender.", path=path, name=name))
     return _read_by_trimesh(path)
 
 
 def _read_dae(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and their polygons of a .dae; raises ValueError where some is damaged.
+    """Vertices, triangles and their polygons of a .dae; raises DamagedFileError where some is.
 
     trimesh would leave out such meshes, and those whose materials are damaged, and keeps no list of them: the file is
     read twice.
     """
     import collada
 
-    with path.open("rb") as file:
+    with path.open("rb") as file, read_by("pycollada"):
         read = collada.Collada(file, ignore=[collada.common.DaeError])
     for error in read.errors:
         if not isinstance(error, collada.common.DaeUnsupportedError):  # such as a kind of light
-            raise ValueError(error.msg)
+            raise DamagedFileError(Sentence("a part of it is damaged ({words})", words=error.msg))
     return _read_by_trimesh(path)
 
 
@@ -278,17 +285,20 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     resolver = trimesh.resolvers.FilePathResolver(path)
     resolver.file_name = readable(path.name)
     data = path.read_bytes()
-    with io.BytesIO(_plain_ply(data) if path.suffix.lower() == ".ply" else data) as stream:
+    with io.BytesIO(_plain_ply(data) if path.suffix.lower() == ".ply" else data) as stream, read_by("trimesh"):
         # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
         scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
-    meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
+        meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
+    if any(mesh.vertices.shape[1:] != (3,) for mesh in meshes):
+        raise DamagedFileError(NO_PLACES)
     first = cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    faces = [mesh.faces + start for mesh, start in zip(meshes, first, strict=False)]
+    # Some of its versions have none in one dimension.
+    faces = [mesh.faces.reshape(-1, 3) + start for mesh, start in zip(meshes, first, strict=False)]
     vertices = np.concatenate([np.empty((0, 3)), *(mesh.vertices for mesh in meshes)])
     triangles = np.concatenate([np.empty((0, 3), np.int64), *faces])
     # Added to the number of its mesh's first vertex, one that is not there could be a vertex of the next mesh.
     if any(((mesh.faces < 0) | (mesh.faces >= len(mesh.vertices))).any() for mesh in meshes):
-        raise ValueError(NOT_THERE)
+        raise DamagedFileError(NOT_THERE)
     return vertices, triangles, arange(len(triangles))
 
 

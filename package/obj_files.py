@@ -8,7 +8,7 @@ import re
 import numpy as np
 
 from .core.arrays.int64 import cumsum
-from .polygons_in_files import cut_polygons, places, plain_text
+from .polygons_in_files import cut_polygons, indices, places, plain_text
 
 _COMMENT = re.compile(rb"#[^\n]*")
 # A line that goes on in the next one, if there is one.
@@ -34,7 +34,7 @@ def parse_obj(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     Raises
     ------
-    ValueError
+    DamagedFileError
         Something that should be a number is none, a vertex has less than three, or a face has a vertex that is not
         there.
     """
@@ -49,8 +49,7 @@ def _corners(text: bytes) -> tuple[np.ndarray, np.ndarray]:
     """Vertex of each corner of all faces, (c,), from 0, -1 for none, and how many corners each has, (p,)."""
     rows = _MORE.sub(b"", b"\n".join(_FACE.findall(text))).split(b"\n")
     sizes = np.array([len(row.split()) for row in rows])
-    names = b" ".join(rows).split()
-    corner = np.array(names, np.bytes_).astype(np.int64) if names else np.empty(0, np.int64)
+    corner = indices(b" ".join(rows).split())
     vertex = np.where(corner >= 0, corner - 1, corner)  # counted from 1: there is no vertex 0
     counted_back = corner < 0
     if counted_back.any():

@@ -19,7 +19,8 @@ from typing import IO, TYPE_CHECKING
 import numpy as np
 
 from .core.arrays.int64 import arange, cumsum, full
-from .polygons_in_files import cut_polygons
+from .damaged_files import DamagedFileError, read_by
+from .polygons_in_files import NO_PLACES, cut_polygons
 
 if TYPE_CHECKING:
     from plyfile import PlyData, PlyElement
@@ -47,17 +48,19 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     ------
     plyfile.PlyHeaderParseError
         The header is damaged, or has a type of numbers that plyfile does not know.
-    plyfile.PlyElementParseError
-        The rest is damaged, or a part of it is missing.
-    ValueError
-        A vertex has no position, or a face has a vertex that is not there.
+    DamagedFileError
+        The rest is damaged, or a part of it is missing; a vertex has no position, or a face has a vertex that is not
+        there.
     OSError
         The file cannot be read.
     """
-    data = _data(path)
+    from plyfile import PlyHeaderParseError
+
+    with read_by("plyfile", PlyHeaderParseError):
+        data = _data(path)
     if "vertex" not in data:
         return np.empty((0, 3)), np.empty((0, 3), np.int64), np.empty(0, np.int64)
-    vertices = np.stack([data["vertex"][axis] for axis in "xyz"], axis=1).astype(np.float64)
+    vertices = _places(data["vertex"])
     corner, sizes = _corners(data["face"]) if "face" in data else (np.empty(0, np.int64), np.empty(0, np.int64))
     triangles = _of_strips(data["tristrips"]) if "tristrips" in data else np.empty((0, 3), np.int64)
     return cut_polygons(vertices, np.append(corner, triangles), np.append(sizes, full(len(triangles), 3)))
@@ -103,6 +106,16 @@ def _with_ascii(path: Path, header: bytes) -> Iterator[IO[bytes]]:
         copy.write(header.translate(ASCII) + data[len(header):])
         copy.seek(0)
         yield copy
+
+
+def _places(vertex: PlyElement) -> np.ndarray:
+    """Positions of all vertices, (n, 3) float64; raises DamagedFileError where they have none."""
+    from plyfile import PlyListProperty
+
+    numbers = {entry.name for entry in vertex.properties if not isinstance(entry, PlyListProperty)}
+    if not numbers.issuperset("xyz"):
+        raise DamagedFileError(NO_PLACES)
+    return np.stack([vertex[axis] for axis in "xyz"], axis=1).astype(np.float64)
 
 
 def _of_strips(strips: PlyElement) -> np.ndarray:

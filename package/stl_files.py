@@ -13,15 +13,17 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 import numpy as np
 
 from .core.arrays.int64 import arange
+from .core.sentence import Sentence
+from .damaged_files import DamagedFileError
 from .polygons_in_files import places, plain_text
 
 _FACET = re.compile(rb"\bfacet\s+normal", re.IGNORECASE)
 _FACET_END = re.compile(rb"\bendfacet\b", re.IGNORECASE)
 _VERTEX = re.compile(rb"\bvertex\s+(\S+\s+\S+\s+\S+)", re.IGNORECASE)
-# The name of a solid, in which there may be any words, with what stands before it.
-_NAME = re.compile(rb"\b(?:end)?solid\b[^\n]*?(?=\bfacet\s+normal|\n|\Z)", re.IGNORECASE)
+# The name of a solid, in which there may be any words, with what stands before it: a face, in one line.
+_NAME = re.compile(rb"\b(?:end)?solid\b[^\n]*?(?=\bfacet\s+normal(?:\s+[-+.\w]+){3}\s+outer\b|\n|\Z)", re.IGNORECASE)
 _HEAD, _FACE = 84, 50  # bytes before the first face of a binary file, and of each
-_ENDS = "it ends before its last face"
+_ENDS = Sentence("it ends before its last face")
 
 
 def parse_stl(data: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -43,7 +45,7 @@ def parse_stl(data: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     Raises
     ------
-    ValueError
+    DamagedFileError
         It ends before its last face, has the size of more faces behind it, or something that should be a number is
         none.
     """
@@ -67,15 +69,16 @@ def _end(data: bytes) -> int:
 def _of_numbers(data: bytes) -> np.ndarray:
     """Corners of all faces, (3 m, 3) float64, of a binary file; some programs write more behind the last one.
 
-    Raises ValueError where faces are missing, or where what is behind the last one has the size of more faces.
+    Raises DamagedFileError where faces are missing, or where what is behind the last one has the size of more faces.
     """
     end = _end(data)
     if len(data) < end:
-        raise ValueError(_ENDS)
+        raise DamagedFileError(_ENDS)
     behind = data[end:]
     if len(behind) % _FACE == 0 and any(behind):
-        raise ValueError(f"its head counts {(end - _HEAD) // _FACE} faces, and as many bytes as "
-                         f"{len(behind) // _FACE} more have follow")
+        raise DamagedFileError(Sentence(
+            "its head counts {n} {n:face|faces}, and as many bytes as {more} more have follow",
+            n=(end - _HEAD) // _FACE, more=len(behind) // _FACE))
     faces = np.frombuffer(data[_HEAD:end], [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("color", "<u2")])
     return faces["corners"].reshape(-1, 3).astype(np.float64)
 
@@ -85,7 +88,7 @@ def _of_words(text: bytes) -> np.ndarray:
     text = _NAME.sub(b"", text)
     n_faces, rows = len(_FACET.findall(text)), _VERTEX.findall(text)
     if len(_FACET_END.findall(text)) < n_faces:
-        raise ValueError(_ENDS)
+        raise DamagedFileError(_ENDS)
     if len(rows) != 3 * n_faces:
-        raise ValueError("a face has other than three corners")
+        raise DamagedFileError(Sentence("a face has other than three corners"))
     return places(rows)

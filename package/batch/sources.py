@@ -18,6 +18,8 @@ from ..core.sentence import Sentence
 from ..polygons_in_files import plain_text
 from .records import RECORD, read_record
 
+FOLDERS = "models"  # where the folders of all models are, in that of the results
+
 
 class SourceError(ReebError):
     """There are no models where the user said; the message says where."""
@@ -103,7 +105,7 @@ def is_gone(place: str, kinds: tuple[str, ...]) -> bool:
 
 def folder_of(out: Path, name: str) -> Path:
     """Where the results of the model of a name are."""
-    return out / "models" / spelled(name)
+    return out / FOLDERS / spelled(name)
 
 
 def _without_namesakes(sources: list[Source], unread: Callable[[OSError], object] | None) -> list[Source]:

@@ -33,6 +33,10 @@ PARTS = pa.schema([
 ])
 
 
+#: What they are called, in the folder of the results.
+MODELS_TABLE, PARTS_TABLE = "models.parquet", "parts.parquet"
+
+
 def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -> tuple[Path, Path]:
     """Write models.parquet and parts.parquet, both or none.
 
@@ -52,7 +56,7 @@ def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -
     OSError
         One of them cannot be written; both are then as they were.
     """
-    targets = [out / "models.parquet", out / "parts.parquet"]
+    targets = [out / MODELS_TABLE, out / PARTS_TABLE]
     places = [hidden_place(path) for path in targets]
     with ExitStack() as stack:
         for place in places:

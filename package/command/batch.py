@@ -25,13 +25,13 @@ from tempfile import TemporaryFile
 from typing import Any
 
 from ..batch.records import CRASH, DONE, OPEN, Settings, failure, is_done, record_of, write_record
-from ..batch.sources import Source, find_sources, folder_of, is_gone, read_list
+from ..batch.sources import FOLDERS, Source, find_sources, folder_of, is_gone, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import add_parameters, answer_text, chosen_parameters, named_folder, number
 from ..core.sentence import Sentence
 from ..model_files import BY_BLENDER, formats
-from ..output_files import SharedFolder, as_output_error
+from ..output_files import OutputFileError, SharedFolder, as_output_error, check_folder
 from ..outputs import COLORED, LABELS, PARTS
 from .words import INTERRUPTED, print_answer, say
 
@@ -94,6 +94,7 @@ def run(options: argparse.Namespace) -> int:
         batch.out.mkdir(parents=True, exist_ok=True)
         with TemporaryFile(dir=batch.out):  # or each model would be computed, and none could be written
             pass
+        _check_places(batch.out)
         shared = SharedFolder(batch.out)
     interrupted = False
     with shared:
@@ -112,6 +113,19 @@ def run(options: argparse.Namespace) -> int:
     print_answer(answer_text(answer))
     all_done = not batch.unread and all(status == DONE for status in answer["models"])
     return INTERRUPTED if interrupted else int(not all_done)
+
+
+def _check_places(out: Path) -> None:
+    """Raise OutputFileError where results could not be put in their places, as something else has their names."""
+    from ..batch.page import PAGE
+    from ..batch.tables import MODELS_TABLE, PARTS_TABLE
+
+    check_folder(out / FOLDERS)
+    for path in (out / MODELS_TABLE, out / PARTS_TABLE, out / PAGE):
+        with as_output_error(path):
+            if path.exists() and not path.is_file():
+                raise OutputFileError(Sentence("{path} is no file, and the run writes one of that name. Remove it, or "
+                                               "choose another folder with --out.", path=path))
 
 
 class _Batch:
@@ -264,7 +278,7 @@ class _Batch:
         page = write_page(self.out, _models(len(self.sources)), rows(), len(self.sources), self.sources[0].path)
         return {"models": counted, "kept": self.kept, "files": {
             "models": readable(models), "parts": readable(parts), "page": readable(page),
-            "folders": readable(self.out / "models")}}
+            "folders": readable(self.out / FOLDERS)}}
 
     def _record(self, source: Source) -> dict[str, Any]:
         """The record of a model; where it could not be written, as on a full disk, one of what its worker has said."""

@@ -357,6 +357,19 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
     assert "Say where it is with --blender" in table["scene.blend"]["reason"]
 
 
+@pytest.mark.parametrize("name", ["models.parquet", "parts.parquet", "index.html", "models"])
+def test_places_of_results_that_are_taken_are_said_at_once(name, models, reeb_parts_command, tmp_path):
+    """Each model was computed, and then no table could be written; in place of the folder, none of them could."""
+    taken = tmp_path / "out" / name
+    taken.parent.mkdir()
+    taken.write_text("") if name == "models" else taken.mkdir()
+    done = reeb_parts_command("batch", str(models / "tree.ply"), "--out", str(taken.parent))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith(f"reeb-parts: {taken} ")
+    assert len(done.stderr.splitlines()) == 1
+    assert [path.name for path in taken.parent.iterdir() if not path.name.startswith(".")] == [name]
+
+
 @pytest.mark.parametrize(("arguments", "status", "words"), [
     (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
     (["--out", ""], 2, "argument --out: the name of the folder is empty"),
@@ -581,9 +594,11 @@ def test_what_another_run_did_after_it_was_given_out_is_not_done_again(models, t
 
 def test_what_could_not_be_written_is_no_model_that_was_not_reached(models, tmp_path, monkeypatch, capsys):
     """Where the record cannot be written either, tables and answer had "open", standard error the truth."""
-    (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "models").write_text("a file in the place of the folder")
-    status = run_here(monkeypatch, models / "tree.ply", tmp_path / "out")
+    (tmp_path / "archive" / "deep").mkdir(parents=True)
+    shutil.copy(models / "tree.ply", tmp_path / "archive" / "deep")
+    (tmp_path / "out" / "models").mkdir(parents=True)
+    (tmp_path / "out" / "models" / "deep").write_text("a file in the place of the folder")
+    status = run_here(monkeypatch, tmp_path / "archive", tmp_path / "out")
     assert (status, json.loads(capsys.readouterr().out)["models"]) == (1, {"error": 1})
     (row,) = rows(tmp_path / "out" / "models.parquet")
     assert row["status"] == "error"

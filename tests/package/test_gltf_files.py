@@ -108,7 +108,7 @@ def test_what_a_reader_refuses_without_a_word_is_damaged(header, tmp_path):
     indices = header["accessors"][primitive(header)["indices"]]
     indices["count"] = 2
     (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
-    with pytest.raises(reeb_parts.ModelFileError, match=r"could not be read: \w+: .*[a-z]"):
+    with pytest.raises(reeb_parts.ModelFileError, match="it is damaged, or has what trimesh does not read"):
         reeb_parts.read_model(tmp_path / "model.gltf")
 
 

@@ -2,6 +2,7 @@
 """The installed package: what is in it, and what it takes."""
 
 import gc
+import json
 import os
 import re
 import struct
@@ -16,6 +17,7 @@ import pytest
 import reeb_parts
 import shapes
 import trimesh
+from reeb_parts import model_files
 from reeb_parts.core.metrics import cut_discrepancy
 from reeb_parts.outputs import picture_bytes
 
@@ -270,7 +272,7 @@ def test_damaged_arrays_are_not_left_open(tmp_path):
     (tmp_path / "tree.npz").write_bytes(b"PK\x03\x04 and no end")
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
-        with pytest.raises(reeb_parts.ModelFileError, match="could not be read: BadZipFile"):
+        with pytest.raises(reeb_parts.ModelFileError, match="could not be read: it is damaged, or .*BadZipFile"):
             reeb_parts.read_model(tmp_path / "tree.npz")
         gc.collect()
     assert [str(warning.message) for warning in found] == []
@@ -317,6 +319,41 @@ def test_meshes_of_a_scene_come_in_their_places(tmp_path):
     model = reeb_parts.read_model(tmp_path / "two.glb")
     assert len(model.faces) == 16
     assert sorted({round(x) for x in model.vertices[:, 0].tolist()}) == [-1, 0, 1, 4, 5, 6]
+
+
+@pytest.mark.parametrize(("name", "text", "words"), [
+    ("comma.obj", "v 0,5 1 2\nf 1 1 1", "0,5 is no coordinate"),
+    ("name.obj", "v 0 1 2\nf 1 1 x", "x stands where a face has the number of a vertex or of its corners"),
+    ("large.off", "OFF\n1 1 0\n0 0 0\n99999999999999999999 0 0 0\n", "99999999999999999999 stands where a face has"),
+    ("word.stl", "facet normal 0 0 1 vertex 0 0 \0 vertex 1 0 0 vertex 0 1 0 endfacet", r"\\x00 is no coordinate"),
+    ("flat.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+     "property list uchar int z\nend_header\n1 0\n", "its vertices have no x, y and z"),
+    ("cut.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n",
+     "it is damaged, or has what plyfile does not read .*early end-of-file"),
+    ("deep.gltf", "[" * 100_000, "its description of a scene is no JSON .*recursion"),
+    ("list.gltf", '{"meshes": [{}], "scenes": [{"nodes": [0]}]}',
+     "its description of a scene lacks something, or has something else in its place"),
+    ("away.gltf", json.dumps({"asset": {"version": "2.0"}, "buffers": [{"uri": "away.bin", "byteLength": 1}]}),
+     "away.bin, which it refers to, is not there"),
+    ("seek.npz", "PK\3\4" + "-" * 60 + "PK\5\6" + "\0" * 8 + "\x7f" * 10,
+     "it is damaged, or has what NumPy does not read"),
+])
+def test_a_damaged_model_is_one_sentence(name, text, words, tmp_path):
+    """Some were Python's own: could not convert string to float, KeyError: 'inf', Invalid argument."""
+    (tmp_path / name).write_bytes(text.encode("latin-1"))
+    with pytest.raises(reeb_parts.ModelFileError, match=f"/{name} could not be read: {words}"):
+        reeb_parts.read_model(tmp_path / name)
+
+
+def test_what_goes_wrong_in_our_own_readers_is_no_damage_of_the_model(tmp_path, monkeypatch):
+    """Any exception there was the sentence of a damaged file, so that nobody would have reported it."""
+    def wrong(text):
+        raise KeyError(len(text))
+
+    monkeypatch.setitem(model_files._READERS, ".obj", model_files._by_bytes(wrong))
+    (tmp_path / "model.obj").write_text("v 0 0 0")
+    with pytest.raises(KeyError, match="7"):
+        reeb_parts.read_model(tmp_path / "model.obj")
 
 
 @pytest.mark.parametrize(("name", "text", "words"), [
