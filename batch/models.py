@@ -12,7 +12,7 @@ from pathlib import Path
 
 import bpy
 
-from ..core.file_names import kind_of, readable
+from ..core.file_names import LONGEST_IN_BLENDER, is_too_long_for_blender, kind_of, readable
 from ..scene.errors import SceneError
 from ..scene.pieces import origins
 from ..scene.saving.run_files import reason
@@ -140,6 +140,9 @@ def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
         raise SceneError(f"There is no file {path}.")
     if not stat.S_ISREG(kind):
         raise SceneError(f"{path} is no file but a pipe or a device: write the model to a file first.")
+    if is_too_long_for_blender(path):
+        raise SceneError(f"{path} could not be read: Blender takes names of up to {LONGEST_IN_BLENDER} bytes, with "
+                         "all folders.")
     if path.suffix.lower() not in kinds:
         raise SceneError(f"{path} is none of {', '.join(kinds)}.")
 

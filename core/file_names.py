@@ -12,6 +12,8 @@ from pathlib import Path
 #: Names that stand for devices on Windows, whatever follows a first dot.
 DEVICES = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])\s*(\.|$)", re.IGNORECASE)
 
+LONGEST_IN_BLENDER = 1023  # bytes of a path
+
 
 def readable(name: str | Path) -> str:
     """A name of a file as a text for JSON and tables: the same if it can be, else with its strange bytes as \\xdf.
@@ -48,6 +50,11 @@ def kind_of(path: str | Path) -> int:
         return stat.S_IFMT(os.stat(path).st_mode)
     except (FileNotFoundError, NotADirectoryError, ValueError):  # the last of a name with a zero in it
         return 0
+
+
+def is_too_long_for_blender(path: Path) -> bool:
+    """Whether Blender cuts the absolute name of a file short, and would then look for another one."""
+    return len(os.fsencode(path.resolve())) > LONGEST_IN_BLENDER
 
 
 def file_name(text: str, default: str) -> str:

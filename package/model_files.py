@@ -21,7 +21,7 @@ from .core.arrays.int64 import arange, cumsum
 from .core.atomic_files import HIDDEN
 from .core.errors import ReebError
 from .core.fbx_nodes import is_believable
-from .core.file_names import kind_of, readable
+from .core.file_names import LONGEST_IN_BLENDER, is_too_long_for_blender, kind_of, readable
 from .core.memory import lacks_memory
 from .core.mesh.arguments import corners, positions
 from .core.mesh.ears import fans, without_folds
@@ -308,6 +308,8 @@ def _read_by_blender(path: Path, blender: str | Path | None,
     if blender is None:
         raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender, in "
                                      "Python with blender=.", path=path))
+    if is_too_long_for_blender(path):
+        raise _unreadable(path, f"Blender takes names of up to {LONGEST_IN_BLENDER} bytes, with all folders")
     _check_nodes(path)
     exporter = files(__package__) / "blender_export.py"
     with tempfile.TemporaryDirectory(prefix=HIDDEN, dir=temporary) as folder, as_file(exporter) as script:

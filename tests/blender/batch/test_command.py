@@ -387,6 +387,19 @@ def test_standard_output_and_pipes_are_no_files(run, model, tmp_path):
 
 
 @unix
+def test_a_name_that_blender_would_cut_short_is_refused(run, tree, tmp_path):
+    """It read the file of the shorter name, and said that this was the one."""
+    folder = tmp_path.joinpath(*["d" * 200] * 4)
+    folder.mkdir(parents=True)
+    short = "x" * (1023 - len(os.fsencode(folder.resolve())) - 1)
+    process.write_obj(folder / short, tree)
+    process.write_obj(folder / f"{short}y.obj", shapes.octahedron())
+    ended = run(folder / f"{short}y.obj")
+    assert (ended.status, ended.out) == (1, "")
+    assert "y.obj could not be read: Blender takes names of up to 1023 bytes, with all folders." in ended.err
+
+
+@unix
 def test_names_that_are_no_utf8_are_readable_in_the_answer(run, model):
     odd = Path(os.fsdecode(os.fsencode(model.parent) + b"/Stra\xdfe.json"))
     ended = run(model, model.with_name(odd.name).with_suffix(".obj"), "--json", odd)
