@@ -79,7 +79,8 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         Nobody answers at the address, its workers have another version of this package, or no workers can be started,
         as where too few files may be open.
     """
-    for name in ("distributed", "distributed.client"):  # the latter has a level of its own
+    # The client has a level of its own; what Dask's tasks raise when workers are ended at their start is asyncio's.
+    for name in ("distributed", "distributed.client", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     if scheduler is None:
         with _safe_path(), _own_cluster(workers, dashboard) as client:
@@ -146,8 +147,10 @@ def _signals_held_back() -> Iterator[None]:
     mask = None
     # What is started inherits which signals wait, where the system has that; it would not inherit a handler.
     if hasattr(signal, "pthread_sigmask"):
-        resource_tracker.ensure_running()  # where Python starts this first, nothing waits any more
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, OWN_SIGNALS)
+        # Python starts this first, and nothing waits any more. It ignores Ctrl+C, but would end with the terminal.
+        resource_tracker.ensure_running()
+        signal.pthread_sigmask(signal.SIG_BLOCK, OWN_SIGNALS)
     try:
         yield
     finally:

@@ -786,6 +786,18 @@ def test_a_killed_worker_a_killed_run_and_ctrl_c_lose_nothing(request, reeb_part
     assert {path.name for path in (out / "models").iterdir()} == finished(out)
 
 
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="other systems close terminals in another way")
+def test_what_python_starts_beside_the_workers_does_not_end_with_the_terminal():
+    """It ended, and a new one that knew of nothing printed a traceback for each lock that it was to forget."""
+    run = ("import os, time; from multiprocessing import resource_tracker; from reeb_parts.batch import cluster\n"
+           "with cluster._signals_held_back(): pass\n"
+           "process = resource_tracker._resource_tracker._pid\n"
+           "for number in cluster.OWN_SIGNALS: os.kill(process, number)\n"
+           "time.sleep(0.3); print(os.waitpid(process, os.WNOHANG)[0])")
+    done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("0\n", "")
+
+
 def test_what_an_ended_process_was_writing_is_gone_after_the_run(request, tmp_path):
     """Its own folder would be removed by the next run, of which there may be none."""
     many(tmp_path / "in", 6)
