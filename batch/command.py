@@ -36,10 +36,10 @@ from ..scene.modes import leave_edit_mode
 from ..scene.moving import armature, hulls
 from ..scene.outputs import uv_map
 from ..scene.pieces import piece_objects, separation
+from ..scene.properties import closes_holes
 from ..scene.runs import results
 from ..scene.saving import export, file_checks
 from ..scene.saving.run_files import RunFiles, reason, scene_files, together
-from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
 from .computing import Computations, in_its_scene
 from .interrupt import Interrupted, Interrupts

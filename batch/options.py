@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..core.options import add_parameters, dashed, limits_of, named_file, named_folder, number
+from ..scene.properties import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
 from ..scene.saving.export import KINDS
-from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
 from .importers import IMPORTERS, WITHOUT_UNIT
 from .models import UNITS
 
@@ -128,7 +128,7 @@ def _choice(items: list[tuple[str, str, str]]) -> dict[str, Any]:
 
 
 def separate_style(options: argparse.Namespace) -> Any:
-    """How parts become objects: the values of settings.SeparateProperties, by the options or their defaults."""
+    """How parts become objects: the values of properties.SeparateProperties, by the options or their defaults."""
     style = argparse.Namespace(**{name: prop.keywords["default"] for name, prop in SEPARATE.items()})
     for name in JointProperties.__annotations__:
         setattr(style, name, getattr(options, name, getattr(style, name)))

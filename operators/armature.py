@@ -6,9 +6,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..scene.moving import armature
-from ..scene.reporting import SelectedPartsOperator
+from ..scene.reporting import SelectedPartsOperator, report_kept
 from ..scene.store import Stored
-from .checks import report_kept
 
 
 class REEB_PARTS_OT_armature(SelectedPartsOperator, bpy.types.Operator):

@@ -92,14 +92,6 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
         report_unsound(self, pieces)
 
 
-def report_kept(operator: bpy.types.Operator, n_kept: int) -> None:
-    """Say how many objects of an earlier run were not replaced, if any."""
-    if n_kept:
-        operator.report({"INFO"}, rpt_(
-            "{n} earlier {n:object that was edited or is needed by others is left as it is|objects that were edited or "
-            "are needed by others are left as they are}").format(n=Count(n_kept)))
-
-
 def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object], just_made: bool = False) -> None:
     """Say which of some pieces that were checked are not sound; of those just made also which are as the model is."""
     wrong, as_model, turned = [], [], []

@@ -13,27 +13,25 @@ from ..core.steps import Steps, finished, stretched
 from ..scene import another_window, bridge, defaults, targets
 from ..scene.bridge import Shape
 from ..scene.errors import SceneError, load_core, translated
+from ..scene.former_names import FormerArguments, take_over_former_names
 from ..scene.modes import object_mode
-from ..scene.reporting import ReportingOperator
-from ..scene.runs import jobs, results
-from ..scene.runs.compute import Outcome
-from ..scene.runs.results import check_unchanged, writing_result
-from ..scene.settings import (
+from ..scene.properties import (
     HINTS,
     OUTPUTS,
     OVERLAY,
     PARAMETERS,
-    FormerArguments,
     HintProperties,
     OutputProperties,
     OverlayProperties,
     ParameterProperties,
     fill_in,
-    take_over_former_names,
 )
+from ..scene.reporting import ReportingOperator, report_kept
+from ..scene.runs import jobs, results
+from ..scene.runs.compute import Outcome
+from ..scene.runs.results import check_unchanged, writing_result
 from ..scene.stepped import LARGE, SteppedOperator
 from ..viewport import shading
-from .checks import report_kept
 
 #: How far all is when a large mesh has been read.
 READ = 0.05

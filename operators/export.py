@@ -9,11 +9,11 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
+from ..scene.properties import SEPARATE, WhichProperties, fill_in
 from ..scene.reporting import ReportingOperator, chosen_with_parts, with_current_parts
 from ..scene.result.part_list import wanted_numbers
 from ..scene.saving.export import KINDS, export_parts
 from ..scene.saving.run_files import together
-from ..scene.settings import SEPARATE, WhichProperties, fill_in
 
 # Since Blender 4.5 a path may only begin with "//" where that is said.
 _FROM_FILE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()

@@ -11,13 +11,13 @@ from ..scene import targets
 from ..scene.errors import SceneError
 from ..scene.modes import is_object_mode, object_mode, set_mode
 from ..scene.pieces import origins, piece_objects, separation
-from ..scene.reporting import ReportingOperator, chosen_with_parts, listed, with_current_parts
+from ..scene.properties import SEPARATE, SeparateProperties, closes_holes, fill_in
+from ..scene.reporting import ReportingOperator, chosen_with_parts, listed, report_kept, with_current_parts
 from ..scene.result.part_list import check_parts, wanted_numbers
-from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
 from ..scene.showing.selection import in_layer, select_objects
 from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
-from .checks import report_kept, report_unsound
+from .checks import report_unsound
 
 
 class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProperties):

@@ -5,8 +5,8 @@ import bpy
 
 from ..core.parameters import PRESETS
 from ..scene import defaults
+from ..scene.properties import OUTPUTS, OVERLAY
 from ..scene.reporting import ReportingOperator
-from ..scene.settings import OUTPUTS, OVERLAY
 from ..scene.transaction import keep_group
 
 

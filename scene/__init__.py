@@ -5,7 +5,9 @@ The way of a mesh:
 
 - ``bridge``: the shape of an object as arrays for core
 - ``reading``: what else is read of objects and their meshes
-- ``settings``: what the next run, and what is made of its parts, will be like
+- ``properties``: what a run, and what is made of its parts, can be told
+- ``settings``: what of it the scene says
+- ``former_names``: parameters by their names of version 0.1.0
 - ``defaults``: what the preferences say
 - ``runs``: a run, in a process of its own, and what becomes of its result
 - ``store``: the result, kept with its mesh

@@ -15,7 +15,8 @@ from bpy.app.handlers import persistent
 from .. import __package__ as base_package
 from ..core.parameters import PRESETS, RENAMED
 from . import handlers, property_updates
-from .settings import OUTPUTS, OVERLAY, PARAMETERS, fill_in, take_over_former_names
+from .former_names import take_over_former_names
+from .properties import OUTPUTS, OVERLAY, PARAMETERS, fill_in
 from .transaction import keep_group, transaction
 
 

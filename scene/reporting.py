@@ -11,6 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
+from ..core.sentence import Count
 from . import store, targets
 from .changes import moved
 from .errors import SceneError, translated
@@ -130,6 +131,14 @@ def listed(names: Sequence[str]) -> str:
     shown = ", ".join(names[:MOST_NAMES])
     more = len(names) - MOST_NAMES
     return rpt_("{names} and {n} more").format(names=shown, n=more) if more > 0 else shown
+
+
+def report_kept(operator: bpy.types.Operator, n_kept: int) -> None:
+    """Say how many objects of an earlier run were not replaced, if any."""
+    if n_kept:
+        operator.report({"INFO"}, rpt_(
+            "{n} earlier {n:object that was edited or is needed by others is left as it is|objects that were edited or "
+            "are needed by others are left as they are}").format(n=Count(n_kept)))
 
 
 @contextmanager

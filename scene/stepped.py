@@ -12,9 +12,9 @@ from ..core.errors import ReebError
 from ..core.steps import Steps, finished
 from . import another_window, redraw, running, store
 from .errors import SceneError, translated
+from .properties import SeparateProperties
 from .reporting import ReportingOperator
 from .runs import jobs
-from .settings import SeparateProperties
 from .transaction import transaction
 
 #: With so many vertices it can take a second or more: then there is progress, and Esc.

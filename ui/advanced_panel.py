@@ -7,7 +7,7 @@ import bpy
 
 from ..core.parameters import heeded
 from ..scene import store
-from ..scene.settings import OUTPUTS
+from ..scene.properties import OUTPUTS
 from .fitting import Room
 from .panel import ReebPanel, SubPanel, draw_settings, facts
 

@@ -5,7 +5,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from .. import __package__ as base_package
-from ..scene.settings import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
+from ..scene.properties import OUTPUTS, OVERLAY, OutputProperties, OverlayProperties
+from ..scene.settings import PRESET_ITEMS
 from . import shortcut
 
 

@@ -57,7 +57,7 @@ def forget() -> None:
 def curves_of(obj: bpy.types.Object, cut: str) -> Curves | None:
     """The curves between the parts of an object that has some; None while they are looked for, and along faces.
 
-    cut : as of settings.SeparateProperties.
+    cut : as of properties.SeparateProperties.
     """
     if cut == "FACES":
         return None

@@ -86,7 +86,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     numbered : NumberedParts
         The graph is that of their decomposition.
     style
-        Has the values of settings.OverlayProperties.
+        Has the values of properties.OverlayProperties.
 
     Returns
     -------

@@ -25,7 +25,7 @@ from .solids import dowel
 if TYPE_CHECKING:
     from ...core.graph.reeb import ReebGraph
     from ...core.uses.joints.room import Wanted
-    from ..settings import SeparateProperties
+    from ..properties import SeparateProperties
 
 # Joints are at least so wide, in millimeters: what is smaller breaks off.
 _LEAST = 2.0
@@ -40,7 +40,7 @@ class CutJoints:
     keys : (int, int)
         Of the pieces.
     kind : str
-        What it was to have, of settings.JOINTS.
+        What it was to have, of properties.JOINTS.
     count : int
         How many joints it has.
     width : float
@@ -83,7 +83,7 @@ class JointedPieces:
 
 
 def wanted_joints(style: SeparateProperties) -> Wanted:
-    """What settings.SeparateProperties ask for, in units of the world."""
+    """What properties.SeparateProperties ask for, in units of the world."""
     from ...core.uses.joints.room import Wanted
     from ...core.uses.joints.shapes import Kind
 

@@ -20,7 +20,7 @@ from .. import property_updates, transaction
 from ..result import part_names, part_places
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
-#: The outputs by the names of their switches, see settings.OutputProperties.
+#: The outputs by the names of their switches, see properties.OutputProperties.
 OUTPUTS = {
     "vertex_groups": vertex_groups, "face_attribute": face_attribute, "colors": colors, "field": field,
     "face_sets": face_sets, "materials": materials, "seams": seams,
@@ -39,7 +39,7 @@ def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.
     distances : (n,) float64
         The field.
     outputs
-        Has the switches of settings.OutputProperties.
+        Has the switches of properties.OutputProperties.
     """
     transaction.keep_mesh(obj.data)
     face_sets.keep_drawn(obj.data)

@@ -18,11 +18,11 @@ from ...core.steps import Steps, finished, stretched
 from ...core.uses.colors import linear
 from .. import bridge, joints
 from ..ours import made_objects, modifiers
+from ..properties import SeparateProperties, closes_holes
 from ..reading import mesh_arrays, modified
 from ..reading.placing import millimeters
 from ..renaming import rename
 from ..result import part_names
-from ..settings import SeparateProperties, closes_holes
 from ..showing import explode, hidden
 from ..store import Stored
 from ..temporary import removed
@@ -129,7 +129,7 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     stored : Stored
     numbers : list of int
     style
-        Has the values of settings.SeparateProperties.
+        Has the values of properties.SeparateProperties.
 
     Returns
     -------

@@ -22,7 +22,8 @@ from bpy.props import (
 
 from ..changes import reactions, undo_steps
 from ..changes.settled import Settled
-from ..settings import JOINTS, ReebPartsSettings, ReebPartsUse
+from ..properties import JOINTS
+from ..settings import ReebPartsSettings, ReebPartsUse
 from ..showing import explode
 from . import part_list, part_names
 

@@ -66,7 +66,7 @@ def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iter
         Write the pieces that were separated, with their caps and joints, and their dowels, as they are now; ``close``
         and ``cut`` do not count then.
     cut : str
-        Where parts are cut from each other: settings.SeparateProperties.cut.
+        Where parts are cut from each other: properties.SeparateProperties.cut.
 
     Returns
     -------
