@@ -12,6 +12,14 @@ import bpy
 import pytest
 
 
+def test_nothing_is_installed_where_the_user_has_extensions():
+    """Blender unpacked SciPy there, or took it away, while another run was at it: "No module named scipy.cluster"."""
+    own = os.path.realpath(os.environ["BLENDER_USER_RESOURCES"])
+    assert os.path.realpath(bpy.utils.user_resource("EXTENSIONS")).startswith(own)
+    libraries = os.path.join("extensions", ".local")
+    assert not [path for path in sys.path if libraries in path and not os.path.realpath(path).startswith(own)]
+
+
 @pytest.mark.parametrize("where", ["scene", "operator"])
 def test_properties_mirror_the_parameters(parameters, where):
     if where == "scene":
