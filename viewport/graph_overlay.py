@@ -21,6 +21,7 @@ from ..scene import store
 from ..scene.graph import graph_finding, graph_follow, graph_objects
 from ..scene.ours.made_objects import ROLE
 from ..scene.result import part_names
+from ..scene.showing import selection
 from .clipping import is_clipped
 from .graph_lines import GraphLines
 from .lines import Lines
@@ -168,7 +169,7 @@ def colored_arcs(mesh: bpy.types.Mesh, places: np.ndarray | None = None) -> tupl
     else:
         stored = store.load(mesh)
     lines = GraphLines.shown(stored, store.stretch_of(mesh))
-    lines = lines.without(stored.shown, graph_objects.hidden_parts(mesh, stored.face_numbers))
+    lines = lines.without(stored.shown, selection.hidden_parts(mesh, stored.face_numbers))
     position = places if places is not None and len(places) == len(lines.position) else lines.position
     colors = part_names.number_colors(mesh)[stored.shown[lines.candidate]]
     ends = lines.segments

@@ -18,7 +18,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.steps import Steps
 from ..scene import bridge, store
 from ..scene.errors import SceneError
-from ..scene.graph import graph_finding, graph_objects
+from ..scene.graph import graph_finding
 from ..scene.pieces import cut_curves
 from ..scene.reading import mesh_arrays
 from ..scene.reading.seen_points import seen_points, version
@@ -115,7 +115,7 @@ def _hidden(mesh: bpy.types.Mesh, part: np.ndarray) -> tuple[np.ndarray | None, 
     """
     if not selection.hides_faces(mesh) or not (hidden := selection.hidden_faces(mesh)).any():
         return None, None
-    gone = graph_objects.hidden_parts(mesh, part)
+    gone = selection.hidden_parts(mesh, part)
     return hidden, gone if np.array_equal(np.isin(part, gone), hidden) else None
 
 

@@ -18,9 +18,10 @@ from numpy.typing import ArrayLike
 from ..core.arrays.int64 import arange
 from ..scene import store
 from ..scene.errors import SceneError
-from ..scene.graph import graph_finding, graph_follow, graph_objects
+from ..scene.graph import graph_finding, graph_follow
 from ..scene.outputs.kept_aside import find_attribute
 from ..scene.reading import mesh_arrays, seen_points
+from ..scene.showing import selection
 from .clipping import clip_planes, is_clipped
 from .graph_lines import GraphLines, frontmost, nearest
 
@@ -79,7 +80,7 @@ class Model:
         self.stretch = store.stretch_of(obj.data)
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
         self.shown_lines = GraphLines.shown(self.stored, self.stretch).without(
-            self.stored.shown, graph_objects.hidden_parts(obj.data, self.stored.face_numbers))
+            self.stored.shown, selection.hidden_parts(obj.data, self.stored.face_numbers))
         table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
         self.face_value = table.face_means(np.nan_to_num(self.stored.decomposition.field))
         # (p, 3) float64 each; of what is seen once ``look`` was called.

@@ -7,7 +7,7 @@ What is said and shown of it:
 - ``report``: the report as JSON
 - ``pictures``: pictures without a renderer
 - ``naming``: names for parts that say what they are
-- ``graph_folding``: which nodes and arcs are worth showing beside some parts
+- ``graph_folding``: which nodes and arcs are worth showing beside some parts, and whether they would cover the model
 - ``descriptors``: what a part is like, in numbers, to find parts that are alike
 - ``correspondence``: the same parts on another model
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which nodes and arcs of a Reeb graph are worth showing beside some parts: the branches within a part are folded."""
+"""Which nodes and arcs of a Reeb graph are worth showing beside some parts: the branches within a part are folded.
+
+And whether their marks would cover the model.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +15,11 @@ from ..arrays.components import components
 from ..arrays.indexing import sums_by
 from ..graph.critical import SADDLE
 from ..graph.reeb import ReebGraph
+
+# A graph covers its model if more than this share of its marks would lie under others, in a picture of the model that
+# is so many marks wide. Of 31 labeled models, at the usual detail, these are four clothed men with hair and belts of
+# their own; with all nodes shown, as before, it would be fifteen.
+_CROWDED, _MARKS_WIDE = 0.35, 45
 
 
 def arc_lengths(graph: ReebGraph) -> np.ndarray:
@@ -94,6 +102,33 @@ def without_scraps(segments: np.ndarray, part: np.ndarray, seen: np.ndarray, n_n
     stays = reaches | np.isin(line, line[seen & ~others])
     stays[:n_nodes] = True
     return seen & stays
+
+
+def is_crowded(graph: ReebGraph, shown: np.ndarray) -> bool:
+    """Whether the marks of a graph would cover each other rather than show anything.
+
+    Parameters
+    ----------
+    graph : ReebGraph
+        With k nodes.
+    shown : (k,) bool
+        Nodes that have marks.
+
+    Returns
+    -------
+    crowded : bool
+        Whether on average over three pictures, along the axes, too large a share of the marks lies under others.
+    """
+    places = graph.node_position[shown]
+    if len(places) < 2:
+        return False
+    size = float(np.ptp(np.concatenate([graph.node_position, graph.point_position]), axis=0).max()) / _MARKS_WIDE
+    covered = []
+    for axis in range(3):
+        seen = np.delete(places, axis, axis=1)
+        apart = np.linalg.norm(seen[:, None] - seen[None], axis=2)
+        covered.append((np.tril(apart < size, -1)).any(axis=1).mean())
+    return float(np.mean(covered)) > _CROWDED
 
 
 class _Folding:

@@ -25,7 +25,7 @@ from ..ours import made_objects
 from ..ours.made_objects import ROLE
 from ..result import part_names
 from ..showing import visibility
-from ..showing.selection import hidden_faces, in_layer
+from ..showing.selection import hidden_parts, in_layer
 from . import arc_curves, graph_finding, graph_removal
 
 _GRAPH_OF = "Reeb Graph "  # how its name begins
@@ -35,11 +35,6 @@ _STRETCHES = "stretches"  # on the curve: what its splines are, see ``arc_curves
 FOLDED = "folded"  # on a node: the parts that are shown do not need it
 _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and when it is
 _LOCKS = ("lock_location", "lock_rotation", "lock_scale")
-
-# A graph starts hidden if more than this share of its marks would lie under others, in a picture of the model that is
-# so many marks wide. Of 31 labeled models, at the usual detail, these are four clothed men with hair and belts of
-# their own; with all nodes shown, as before, it would be fifteen.
-CROWDED, MARKS_WIDE = 0.35, 45
 
 
 def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
@@ -203,14 +198,6 @@ def _unmove(item: bpy.types.Object) -> None:
     item.matrix_parent_inverse.identity()
 
 
-def hidden_parts(mesh: bpy.types.Mesh, face_numbers: np.ndarray) -> list[int]:
-    """Numbers of the parts of which every face is hidden. face_numbers : (p,) int64, the part of each face."""
-    hidden = hidden_faces(mesh)
-    if len(hidden) != len(face_numbers) or not hidden.any():
-        return []
-    return np.setdiff1d(face_numbers[hidden], face_numbers[~hidden]).tolist()
-
-
 def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     """Tell the nodes which part they are in now, and show those that the parts need, but for those of hidden parts.
 
@@ -297,23 +284,6 @@ def update_names(obj: bpy.types.Object) -> None:
         node.name = "Reeb node"  # no name is in the way of another one
     for node, name in changed:
         node.name = name
-
-
-def is_crowded(graph: ReebGraph, shown: np.ndarray) -> bool:
-    """Whether the marks of a graph would cover each other rather than show anything.
-
-    That is counted in three pictures, along the axes. shown : (k,) bool, the nodes that have marks.
-    """
-    places = graph.node_position[shown]
-    if len(places) < 2:
-        return False
-    size = float(np.ptp(np.concatenate([graph.node_position, graph.point_position]), axis=0).max()) / MARKS_WIDE
-    covered = []
-    for axis in range(3):
-        seen = np.delete(places, axis, axis=1)
-        apart = np.linalg.norm(seen[:, None] - seen[None], axis=2)
-        covered.append((np.tril(apart < size, -1)).any(axis=1).mean())
-    return float(np.mean(covered)) > CROWDED
 
 
 def restyle(obj: bpy.types.Object | None, style: Any) -> None:

@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.result.numbering import NumberedParts, Numbering
 from ...core.steps import Steps, finished
-from ...core.uses.graph_folding import unfolded
+from ...core.uses.graph_folding import is_crowded, unfolded
 from .. import bridge, outputs, property_updates, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_finding, graph_objects, graph_removal
@@ -133,7 +133,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
 def shows_clutter(numbered: NumberedParts) -> bool:
     """Whether the graph of some parts would cover the model rather than show anything; it is hidden at first then."""
     graph, parts = numbered.parts.decomposition.graph, numbered.parts
-    return graph_objects.is_crowded(graph, unfolded(graph, parts.node_part, parts.point_part)[0])
+    return is_crowded(graph, unfolded(graph, parts.node_part, parts.point_part)[0])
 
 
 def _keep_colors(mesh: bpy.types.Mesh) -> None:

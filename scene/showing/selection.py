@@ -36,6 +36,14 @@ def hidden_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     return mesh_arrays.element_values(mesh, "polygons", "hide")
 
 
+def hidden_parts(mesh: bpy.types.Mesh, face_numbers: np.ndarray) -> list[int]:
+    """Numbers of the parts of which every face is hidden. face_numbers : (p,) int64, the part of each face."""
+    hidden = hidden_faces(mesh)
+    if len(hidden) != len(face_numbers) or not hidden.any():
+        return []
+    return np.setdiff1d(face_numbers[hidden], face_numbers[~hidden]).tolist()
+
+
 def hides_faces(mesh: bpy.types.Mesh) -> bool:
     """Whether some of a mesh may be hidden, at no cost; Object Mode."""
     return ".hide_poly" in mesh.attributes

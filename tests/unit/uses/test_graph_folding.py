@@ -9,7 +9,7 @@ import shapes
 from core import decompose
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE
 from core.graph.reeb import ReebGraph
-from core.uses.graph_folding import arc_lengths, arc_segments, unfolded, without_scraps
+from core.uses.graph_folding import arc_lengths, arc_segments, is_crowded, unfolded, without_scraps
 
 
 def graph_of(kinds, positions, arcs):
@@ -143,3 +143,24 @@ def test_nodes_and_what_hangs_on_them_are_seen(hidden):
     part = np.array([0, 1, 2])
     seen = without_scraps(np.array([(0, 1), (1, 2)]), part, ~np.isin(part, hidden), 3)
     assert np.array_equal(seen, ~np.isin(part, hidden))
+
+
+# On the diagonal, so that the three pictures are one; 45 from end to end, so that marks are 1 wide.
+SPREAD = (0, 9, 18, 27, 36, 45)
+
+
+@pytest.mark.parametrize(("near", "crowded"), [((9.5, 18.5, 27.5), False), ((9.5, 18.5, 27.5, 36.5), True),
+                                               ((9.8, 18.8, 27.8, 36.8), False)])
+def test_marks_of_which_more_than_a_third_lie_under_others_are_crowded(near, crowded):
+    """3 of 9 and 4 of 10; 0.8 along the diagonal are more than a mark in a picture, whose axes are two of the three."""
+    place = np.array((*SPREAD, *near), float)
+    graph = graph_of([MINIMUM] * len(place), np.stack([place] * 3, axis=1), [(0, 5)])
+    assert is_crowded(graph, np.ones(len(place), bool)) == crowded
+    assert not is_crowded(graph, np.arange(len(place)) < len(SPREAD))  # what is folded has no mark
+
+
+def test_marks_are_as_small_as_all_of_the_graph_is_large():
+    graph = graph_of([MINIMUM] * 6, np.stack([SPREAD] * 3, axis=1), [(0, 5)])
+    far = replace(graph, point_position=np.full((1, 3), 1000.0))
+    assert is_crowded(far, np.ones(6, bool))
+    assert not is_crowded(far, np.arange(6) < 1)

@@ -2,10 +2,8 @@
 """The graph as objects, hidden and shown; what of it and of the pieces is seen in the viewport."""
 
 import importlib
-from dataclasses import replace
 
 import bpy
-import numpy as np
 import pytest
 from snapshot import activate
 
@@ -237,15 +235,11 @@ def test_the_eye_draws_the_graph_of_a_mesh_that_was_moved(obj, settings):
     assert not layer_of("Reeb Graph Tree").hide_viewport
 
 
-def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, settings):
-    graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
-    store = importlib.import_module(f"{package}.scene.store")
-    graph = store.load(obj.data).decomposition.graph
-    assert not graph_objects.is_crowded(graph, np.ones(graph.n_nodes, bool))
+def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, obj, settings, monkeypatch):
     assert not layer_of("Reeb Graph Tree").hide_viewport
-    far = np.array([[100.0, 100.0, 100.0]])
-    heap = replace(graph, node_position=graph.node_position, point_position=np.concatenate([graph.point_position, far]))
-    assert graph_objects.is_crowded(heap, np.ones(graph.n_nodes, bool))
+    monkeypatch.setattr(importlib.import_module(f"{package}.core.uses.graph_folding"), "_CROWDED", -1.0)
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    assert layer_of("Reeb Graph Tree").hide_viewport
 
 
 def test_a_graph_goes_with_its_model(package, obj, settings):
