@@ -76,7 +76,7 @@ def cleaned(change: MirroredChange) -> np.ndarray:
     Returns
     -------
     both : (p,) int64
-        As asked where no more than half of the image would be left.
+        As asked where less than half of the image would be left.
     """
     return without_crumbs(replace(change, both=gathered(change)))
 
