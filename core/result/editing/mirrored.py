@@ -200,24 +200,22 @@ def on_both_sides(
     """
     result = after.copy()
     moved = after != before
-    of_new: dict[int, int] = {}
     image_of = full(int(max(before.max(), *twin_number)) + 1, -1)
     image_of[list(twin_number)] = list(twin_number.values())
     for number in np.unique(after[moved & (twin >= 0)]).tolist():
         mine = np.flatnonzero(moved & (twin >= 0) & (after == number))
         image = twin[mine]
-        known = number in twin_number
         target = twin_number.get(number, 0)
-        if not known and not (before == number).any():
+        if not (before == number).any():
             # A new part that reaches over the plane, or a half of which the other half is left, is its own image.
-            itself = moved[image] & (after[image] == number)
-            target = number if itself.mean() > 0.5 else of_new.setdefault(number, new())
+            itself = after[image] == number
+            target = number if itself.mean() > 0.5 else new()
         if not target:
             continue
         # Those whose image has changed, not the images of those that have: several may share an image, and others are
         # nobody's.
         there = np.flatnonzero(~moved & (twin >= 0))
-        there = there[moved[twin[there]] & (after[twin[there]] == number)]
+        there = there[after[twin[there]] == number]
         result[there[image_of[before[twin[there]]] == before[there]]] = target
     gone = np.setdiff1d(after, result)
     image_stays = np.isin([twin_number.get(number, number) for number in gone.tolist()], after)

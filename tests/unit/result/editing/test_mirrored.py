@@ -41,13 +41,21 @@ def test_images_by_number():
     ([1, 1, 1, 3, 4, 4, 3, 2, 2, 2], [1, 1, 1, 3, 4, 4, 3, 2, 2, 2]),
     # The middle is cut in its middle: both halves are there already.
     ([1, 1, 1, 4, 4, 3, 3, 2, 2, 2], [1, 1, 1, 4, 4, 3, 3, 2, 2, 2]),
+    # One that is half its own image has another one for the other half.
+    ([1, 4, 4, 3, 4, 4, 3, 2, 2, 2], [1, 4, 4, 3, 4, 4, 3, 5, 5, 2]),
+    # Two changes at a time, each with its own image.
+    ([4, 1, 3, 3, 3, 3, 3, 2, 2, 2], [4, 1, 3, 3, 3, 3, 3, 3, 2, 5]),
+    # New parts of both sides are no images of each other.
+    ([4, 4, 4, 3, 3, 3, 3, 2, 7, 7], [4, 4, 4, 3, 3, 3, 3, 5, 7, 7]),
     # What was changed on both sides stays.
     ([1, 1, 1, 1, 3, 3, 4, 2, 2, 2], [1, 1, 1, 1, 3, 3, 4, 2, 2, 2]),
 ])
 def test_changes(after, expected):
-    new = count(5)
-    result = on_both_sides(np.array(BEFORE), np.array(after), np.array(TWIN), NUMBERS, lambda: next(new))
-    assert result.tolist() == expected
+    for order in (slice(None), slice(None, None, -1)):  # twins are as far from the end
+        new = count(5)
+        given, wanted = np.array(BEFORE)[order], np.array(after)[order]
+        result = on_both_sides(given, wanted, np.array(TWIN), NUMBERS, lambda new=new: next(new))
+        assert result[order].tolist() == expected
 
 
 def test_what_has_no_image_changes_alone():
@@ -56,8 +64,18 @@ def test_what_has_no_image_changes_alone():
     after = np.array([4, *BEFORE[1:]])
     assert on_both_sides(np.array(BEFORE), after, twin, NUMBERS, lambda: next(new)).tolist() == after.tolist()
     after = np.array([*BEFORE[:3], 1, *BEFORE[4:]])
-    assert on_both_sides(
-        np.array(BEFORE), after, np.array(TWIN), {3: 3}, lambda: next(new)).tolist() == after.tolist()
+    for images in ({3: 3}, {1: 2, 2: 1}):
+        assert on_both_sides(
+            np.array(BEFORE), after, np.array(TWIN), images, lambda: next(new)).tolist() == after.tolist()
+    assert next(new) == 5  # no number was taken for an image
+
+
+def test_faces_without_twins_do_not_tell_whether_a_part_is_its_own_image():
+    """Of the new part, the first two have none; of the other three, two are images of each other."""
+    twin = np.array([-1, -1, *TWIN[2:8], -1, -1])
+    after = np.array([4, 4, 4, 3, 4, 4, 3, 2, 2, 2])
+    found = on_both_sides(np.array(BEFORE), after, twin, NUMBERS, lambda: 9)
+    assert found.tolist() == [4, 4, 4, 3, 4, 4, 3, 4, 2, 2]
 
 
 def test_an_image_that_was_of_another_part_keeps_it():
