@@ -10,6 +10,7 @@ from core.mesh.face_graph import FaceGraph
 from core.result.editing.remainders import halved_between_images, with_small_pieces
 
 
+@pytest.mark.parametrize("unit", [1.0, 1e-3, 1e3])
 @pytest.mark.parametrize(("before", "after", "expected"), [
     # Two faces are cut off from seven: they go along.
     ([1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2], [1, 2, 2, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2],
@@ -26,9 +27,26 @@ from core.result.editing.remainders import halved_between_images, with_small_pie
     # What nothing was taken from stays in its pieces.
     ([2, 1, 2, 2, 2, 2, 1, 1], [2, 1, 2, 2, 2, 2, 1, 3], [2, 1, 2, 2, 2, 2, 1, 3]),
 ])
-def test_small_pieces_go_along(before, after, expected):
+def test_small_pieces_go_along(before, after, expected, unit):
     before, after = np.array(before), np.array(after)
-    assert with_small_pieces(path(len(before)), before, after).tolist() == expected
+    graph = path(len(before), areas=np.full(len(before), unit))
+    assert with_small_pieces(graph, before, after).tolist() == expected
+
+
+@pytest.mark.parametrize(("area", "goes"), [(1.9, 1), (2.1, 2)])
+def test_less_than_a_tenth_of_what_the_part_was_goes_along(area, goes):
+    """A piece beside one of 3, of a part of 20: more than a third of the largest that is left."""
+    graph = path(4, areas=[3.0, 10.0, area, 7.0 - area])
+    found = with_small_pieces(graph, np.full(4, 2), np.array([2, 1, 2, 1]))
+    assert found.tolist() == [2, 1, goes, 1]
+
+
+def test_only_what_was_taken_from_its_own_part_takes_a_piece_along():
+    """Face 0 of part 5 has a short side at a face that 1 took from 5, and a long one at what 2 took from 6."""
+    pairs = np.array([[0, 1], [0, 2], [1, 3], [2, 4]])
+    graph = FaceGraph(5, pairs, np.array([1.0, 3.0, 1.0, 1.0]), np.array([1.0, 2.0, 2.0, 9.0, 9.0]))
+    before, after = np.array([[5, 5, 6, 5, 6], [5, 1, 2, 5, 6]])
+    assert with_small_pieces(graph, before, after).tolist() == [1, 1, 2, 5, 6]
 
 
 def test_small_beside_what_was_taken():
@@ -81,6 +99,10 @@ def test_images_are_treated_alike():
     ([1, 1, 1, 3, 3, 2, 2, 2], [1, 1, 1, 1, 1, 2, 2, 2], [1, 1, 1, 1, 2, 2, 2, 2]),
     # One across the plane stays where it is.
     ([1, 1, 1, 3, 2, 2, 2], [1, 1, 1, 1, 2, 2, 2], [1, 1, 1, 1, 2, 2, 2]),
+    # Only what is on the side of part 2 went along with part 1; its image was given to that by hand.
+    ([1, 1, 1, 1, 3, 2, 2, 2], [1, 1, 1, 1, 1, 2, 2, 2], [1, 1, 1, 1, 1, 2, 2, 2]),
+    # Each went along with the part of the other side: none of the two has both.
+    ([1, 1, 1, 3, 3, 2, 2, 2], [1, 1, 1, 2, 1, 2, 2, 2], [1, 1, 1, 2, 1, 2, 2, 2]),
     # Part 2 does not touch what is on its side.
     ([1, 1, 1, 3, 3, 4, 2, 2], [1, 1, 1, 1, 1, 4, 2, 2], [1, 1, 1, 1, 1, 4, 2, 2]),
 ])
@@ -89,5 +111,18 @@ def test_what_lies_between_images_is_divided(without, after, expected):
     twin = np.arange(count)[::-1]
     image, own_side = np.array([0, 2, 1, 3, 4]), np.array([0, -1, 1, 0, 0])
     side = np.sign(np.arange(count) - (count - 1) / 2).astype(int)
-    result = halved_between_images(path(count), np.array(without), np.array(after), twin, side, own_side, image)
-    assert result.tolist() == expected
+    row, without, after = np.arange(count), np.array(without), np.array(after)
+    for order in (row, row[::-1]):  # in either order of the faces, of which twins are as far from the end
+        result = halved_between_images(path(count), without[order], after[order], twin, side[order], own_side, image)
+        assert result[order].tolist() == expected
+
+
+def test_what_has_no_twin_is_not_between_images():
+    """Faces 2 and 5 went to part 1, and 5 lies on the side of part 2: but neither is the image of the other."""
+    graph = FaceGraph(6, np.array([[0, 1], [1, 2], [2, 5], [5, 3], [3, 4]]), np.ones(5), np.ones(6))
+    without, after = np.array([[1, 1, 3, 2, 2, 3], [1, 1, 1, 2, 2, 1]])
+    image, own_side = np.array([0, 2, 1, 3]), np.array([0, -1, 1, 0])
+    side = np.array([-1, -1, -1, 1, 1, 1])
+    for twins, last in (([4, 3, 5, 1, 0, 2], 2), ([4, 3, -1, 1, 0, -1], 1)):
+        found = halved_between_images(graph, without, after, np.array(twins), side, own_side, image)
+        assert found.tolist() == [1, 1, 1, 2, 2, last]
