@@ -45,7 +45,7 @@ def ranked_pieces(decomposition: Decomposition, number: np.ndarray, graph: FaceG
     candidates = decomposition.candidates
     partly = (np.bincount(candidates, number, decomposition.n_candidates) > 0)[candidates]
     touching = graph.with_contacts(decomposition.contacts)
-    _, piece = touching.regions(np.where(partly, candidates * (number.max(initial=0) + 1) + number, -1))
+    _, piece = touching.regions(np.where(partly, distinct_pairs(candidates, number)[1], -1))
     _, whole = touching.regions(np.where(partly, candidates, -1))
     pieces, face = np.unique(piece[partly], return_index=True)
     of = distinct_pairs(whole[partly][face], number[partly][face])[1]
@@ -107,8 +107,10 @@ def scraps_joined(finer: Decomposition, number: np.ndarray, before: np.ndarray) 
     pinned = np.bincount(finer.candidates, number, count) > 0
     was = majority(finer.candidates, before, np.ones(len(before)), count)
     joins = ~pinned[pairs].any(axis=1) & (was[pairs[:, 0]] == was[pairs[:, 1]])
-    first = last_of_each(both_ways(pairs)[:, 0], -np.tile(finer.pair_merge, 2), count=count)
-    goes = np.append(both_ways(pairs)[:, 1], -1)[first]
+    one, other = both_ways(pairs).T
+    # One merge may join it with what is pinned and with another scrap there.
+    first = last_of_each(one, -np.tile(finer.pair_merge, 2), pinned[other], count=count)
+    goes = np.append(other, -1)[first]
     small = area < SCRAP * np.bincount(was, area)[was]
     scrap = ~pinned & small & (goes >= 0) & pinned[goes]
     longest_last = np.argsort(np.tile(finer.candidate_pair_length[joins], 2), kind="stable")

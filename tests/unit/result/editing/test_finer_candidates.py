@@ -15,7 +15,23 @@ from core.graph.reeb import ReebGraph
 from core.mesh.corners import CornerTable
 from core.mesh.face_graph import FaceGraph
 from core.result.decomposition import Decomposition
-from core.result.editing.finer_candidates import ranked_pieces, split_around, split_candidates
+from core.result.editing.finer_candidates import (
+    ranked_pieces,
+    scraps_joined,
+    split_around,
+    split_candidates,
+)
+
+
+def decomposition_of(candidates, area, pairs=(), length=(), merges=(), salience=(), n_vertices=0):
+    """A decomposition of some faces with nothing but candidates that merge."""
+    none = np.empty(0, np.int64)
+    return Decomposition(
+        candidates=candidates, vertex_candidates=np.zeros(n_vertices, np.int64), candidate_area=np.asarray(area, float),
+        candidate_pairs=np.array(pairs, np.int64).reshape(-1, 2), candidate_pair_length=np.array(length, float),
+        hierarchy=Hierarchy.of(len(area), merges, salience), field=np.zeros(n_vertices), graph=ReebGraph.empty(),
+        node_candidate=none, point_candidate=none, contacts=np.empty((0, 2), np.int64), mirror=np.empty(0),
+        face_twin=none, face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
 
 
 @pytest.fixture(scope="module")
@@ -148,12 +164,62 @@ def test_around_a_vertex_of_needles_their_number_decides():
     shape = vertices, np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (2, 1, 5)])
     area = np.array([0, 0, 0, 0.5])
     graph = FaceGraph(4, np.array([(0, 1), (1, 2), (0, 3)]), np.array([2.0, 3, 1]), area)
-    result = Decomposition(
-        candidates=np.zeros(4, np.int64), vertex_candidates=np.zeros(6, np.int64), candidate_area=np.array([0.5]),
-        candidate_pairs=np.empty((0, 2), np.int64), candidate_pair_length=np.empty(0),
-        hierarchy=Hierarchy.of(1, [], []), field=np.zeros(6), graph=ReebGraph.empty(),
-        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
-        contacts=np.empty((0, 2), np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
-        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
+    result = decomposition_of(np.zeros(4, np.int64), np.array([0.5]), n_vertices=6)
     finer = split_candidates(result, np.array([False, True, True, False]), graph, CornerTable.of(*shape))
     assert finer.vertex_candidates.tolist() == [1, 0, 0, 1, 1, 0]
+
+
+def joined(area, pairs, length, merges, number, before):
+    """What ``scraps_joined`` makes of candidates of a face each: the merges, and their saliences."""
+    salience = np.linspace(0.2, 0.8, len(merges))
+    finer = decomposition_of(np.arange(len(area)), area, pairs, length, merges, salience)
+    found = scraps_joined(finer, np.array(number), np.array(before))
+    return found.hierarchy.merges.tolist(), found.hierarchy.salience.round(3).tolist(), found is finer
+
+
+@pytest.mark.parametrize(("area", "is_scrap"), [(3.0, True), (3.2, False)])
+def test_a_scrap_merges_first_with_what_it_was_one_part_with(area, is_scrap):
+    """Beside candidate 0 of 100, less than three hundredths of both; it would go to pinned part 7 before all else."""
+    found = joined([100.0, area, 50.0], [(0, 1), (1, 2)], [1.0, 1.0], [(1, 2), (0, 1)], [0, 0, 7], [1, 1, 7])
+    if is_scrap:
+        assert found == ([[0, 1], [0, 2]], [0.0, 0.8], False)
+    else:
+        assert found == ([[1, 2], [0, 1]], [0.2, 0.8], True)
+
+
+@pytest.mark.parametrize(("merges", "number", "before"), [
+    ([(1, 2), (0, 1)], [0, 0, 0], [1, 1, 2]),  # nothing is pinned
+    ([(1, 2), (0, 1)], [7, 0, 0], [7, 1, 2]),  # it goes to what is not pinned,
+    ([(0, 1), (1, 2)], [0, 0, 7], [1, 1, 7]),  # as this, which is of its part
+    ([(1, 2), (0, 1)], [0, 7, 7], [1, 7, 7]),  # it is pinned
+    ([(1, 2), (0, 1)], [0, 0, 7], [2, 1, 7]),  # nothing that it touches was in its part,
+    ([(1, 2), (0, 1)], [7, 0, 7], [1, 1, 7]),  # or that is pinned
+])
+def test_what_is_no_scrap_merges_as_ever(merges, number, before):
+    _, _, same = joined([100.0, 1.0, 50.0], [(0, 1), (1, 2)], [1.0, 1.0], merges, number, before)
+    assert same
+
+
+def test_what_touches_nothing_that_was_in_its_part_stays():
+    """Most of part 1 lies behind pinned part 7, and what is beside the scrap was in part 2."""
+    _, _, same = joined([100.0, 1.0, 50.0, 100.0], [(0, 1), (1, 2), (2, 3)], [1.0] * 3, [(1, 2), (0, 1), (2, 3)],
+                        [0, 0, 7, 0], [2, 1, 7, 1])
+    assert same
+
+
+def test_scraps_go_by_their_longest_borders_and_through_each_other():
+    """Scraps 2 and 3 at pinned 4: 2 has a longer border at 1 than at 0; 3 touches nothing of their part but 2.
+
+    2 merges with 3 and 4 at once: which of these has the lower number does not count.
+    """
+    pairs, length = [(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4)], [1.0, 1.0, 2.0, 9.0, 1.0, 1.0]
+    merges = [(3, 4), (2, 3), (0, 1), (1, 2)]
+    for order in (np.arange(5), np.array([1, 0, 3, 2, 4]), np.arange(5)[::-1]):
+        back = np.argsort(order)
+        found, salience, _ = joined(
+            np.array([100.0, 100, 1, 1, 50])[back], np.sort(order[np.array(pairs)], axis=1), length,
+            order[np.array(merges)], np.array([0, 0, 0, 0, 7])[back], np.array([1, 1, 1, 1, 7])[back])
+        first = {frozenset(np.flatnonzero(order == one)[0] for one in pair) for pair in found[:2]}
+        assert first == {frozenset({1, 2}), frozenset({1, 3})}
+        assert salience[:2] == [0.0, 0.0]
+        assert salience[2:] == [0.6, 0.8]
