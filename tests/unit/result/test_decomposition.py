@@ -8,6 +8,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 import shapes
+from decompositions import decomposition_of
 
 from core.cuts.hierarchy import Hierarchy
 from core.errors import ParameterError, ReebError
@@ -21,16 +22,10 @@ from core.result.decomposition import Decomposition
 
 def row():
     """Seven faces in a row, four candidates: 0 1 1 2 2 2 3, merged 2-3, then 0-1, then all."""
-    candidates = np.array([0, 1, 1, 2, 2, 2, 3], np.int64)
-    graph = ReebGraph.empty()
-    return Decomposition(
-        candidates=candidates, vertex_candidates=np.array([0, 1, 2, 3, -1], np.int64),
-        candidate_area=np.array([1.0, 2.0, 6.0, 1.0]), candidate_pairs=np.array([(0, 1), (1, 2), (2, 3)], np.int64),
-        candidate_pair_length=np.array([0.5, 1.5, 2.5]),
-        hierarchy=Hierarchy.of(4, [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9]), field=np.zeros(5), graph=graph,
-        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
-        contacts=np.array([(0, 3)], np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
-        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=("odd",), seconds={"mesh": 0.1})
+    return decomposition_of(
+        [0, 1, 1, 2, 2, 2, 3], [1.0, 2.0, 6.0, 1.0], [(0, 1), (1, 2), (2, 3)], [0.5, 1.5, 2.5],
+        [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9], 5, vertex_candidates=np.array([0, 1, 2, 3, -1], np.int64),
+        contacts=np.array([(0, 3)], np.int64), notes=("odd",), seconds={"mesh": 0.1})
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +100,8 @@ def test_parts_that_only_a_link_joins_do_not_touch():
     assert result.pair_touches.tolist() == [True, False, False]  # each link is a contact, too
     result = replace(result, contacts=np.array([(1, 3), (2, 4), (5, 6)]))
     assert result.pair_touches.tolist() == [True, True, False]
+    with_edges = replace(result, candidate_pair_length=row().candidate_pair_length)
+    assert with_edges.pair_touches.all()  # however many links there are beside an edge
     parts = result.parts(n_parts=4)
     assert parts.cuts.tolist() == [[0, 2], [0, 3], [1, 2]]  # of candidates 2 and 1, 2 and 3, 0 and 1
     assert parts.cut_touches.tolist() == [True, False, True]

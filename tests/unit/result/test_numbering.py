@@ -4,13 +4,11 @@
 import numpy as np
 import pytest
 import shapes
+from decompositions import decomposition_of
 
 from core import Parameters, decompose
 from core.arrays.components import components
-from core.cuts.hierarchy import Hierarchy
-from core.graph.reeb import ReebGraph
 from core.mesh.labels import majority
-from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering, follow, inherited
 from core.uses.colors import number_colors, number_places
 
@@ -327,13 +325,8 @@ def test_who_had_the_number_of_a_fixed_part_elsewhere_gets_another(result):
 def candidates_of(area, merges, salience, pairs):
     """A result of one face for each candidate."""
     count = len(area)
-    return Decomposition(
-        candidates=np.arange(count), vertex_candidates=np.arange(count), candidate_area=np.array(area),
-        candidate_pairs=np.array(pairs).reshape(-1, 2), candidate_pair_length=np.ones(len(pairs)),
-        hierarchy=Hierarchy.of(count, merges, salience), field=np.zeros(count), graph=ReebGraph.empty(),
-        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
-        contacts=np.empty((0, 2), np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
-        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
+    return decomposition_of(np.arange(count), area, pairs, np.ones(len(pairs)), merges, salience, count,
+                            vertex_candidates=np.arange(count))
 
 
 @ROUNDING

@@ -6,32 +6,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import shapes
+from decompositions import decomposition_of
 from face_graphs import graph_of
 
 from core import Parameters, decompose
-from core.cuts.hierarchy import Hierarchy
 from core.graph.critical import MAXIMUM
-from core.graph.reeb import ReebGraph
 from core.mesh.corners import CornerTable
 from core.mesh.face_graph import FaceGraph
-from core.result.decomposition import Decomposition
 from core.result.editing.finer_candidates import (
     ranked_pieces,
     scraps_joined,
     split_around,
     split_candidates,
 )
-
-
-def decomposition_of(candidates, area, pairs=(), length=(), merges=(), salience=(), n_vertices=0):
-    """A decomposition of some faces with nothing but candidates that merge."""
-    none = np.empty(0, np.int64)
-    return Decomposition(
-        candidates=candidates, vertex_candidates=np.zeros(n_vertices, np.int64), candidate_area=np.asarray(area, float),
-        candidate_pairs=np.array(pairs, np.int64).reshape(-1, 2), candidate_pair_length=np.array(length, float),
-        hierarchy=Hierarchy.of(len(area), merges, salience), field=np.zeros(n_vertices), graph=ReebGraph.empty(),
-        node_candidate=none, point_candidate=none, contacts=np.empty((0, 2), np.int64), mirror=np.empty(0),
-        face_twin=none, face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +151,7 @@ def test_around_a_vertex_of_needles_their_number_decides():
     shape = vertices, np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (2, 1, 5)])
     area = np.array([0, 0, 0, 0.5])
     graph = FaceGraph(4, np.array([(0, 1), (1, 2), (0, 3)]), np.array([2.0, 3, 1]), area)
-    result = decomposition_of(np.zeros(4, np.int64), np.array([0.5]), n_vertices=6)
+    result = decomposition_of([0, 0, 0, 0], [0.5], n_vertices=6)
     finer = split_candidates(result, np.array([False, True, True, False]), graph, CornerTable.of(*shape))
     assert finer.vertex_candidates.tolist() == [1, 0, 0, 1, 1, 0]
 
