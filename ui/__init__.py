@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import bpy
 
-from . import advanced_panel, menus, panel, preferences, shortcut, toolbar, translations, use_panel
+from . import advanced_panel, menus, panel, parts_list, preferences, shortcut, toolbar, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
-CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *panel.CLASSES, *use_panel.CLASSES,
-           *advanced_panel.CLASSES)
+CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *parts_list.CLASSES, *panel.CLASSES,
+           *use_panel.CLASSES, *advanced_panel.CLASSES)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

@@ -4,12 +4,24 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 from ..core.parameters import heeded
+from ..core.sentence import Count
 from ..scene import store
-from ..scene.properties import OUTPUTS
+from ..scene.properties import OUTPUTS, OVERLAY
 from .fitting import Room
-from .panel import ReebPanel, SubPanel, draw_settings, facts
+from .panel import ReebPanel, SubPanel
+
+
+def facts(result: bpy.types.PropertyGroup) -> list[str]:
+    """What came out, in two lines."""
+    parts = iface_("{n} {n:part|parts}").format(n=Count(len(result.parts)))
+    graph = iface_("{nodes}, {arcs}, {loops}").format(
+        nodes=iface_("{n} {n:node|nodes}").format(n=Count(result.n_nodes)),
+        arcs=iface_("{n} {n:arc|arcs}").format(n=Count(result.n_arcs)),
+        loops=iface_("{n} {n:loop|loops}").format(n=Count(result.n_loops)))
+    return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), graph]
 
 
 class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
@@ -39,10 +51,12 @@ class SettingsPanel(ReebPanel):
 
     bl_parent_id = "REEB_PARTS_PT_advanced"
     bl_options = {"DEFAULT_CLOSED"}
+    layout: bpy.types.UILayout  # of bpy.types.Panel, which the class that inherits is, too
     names: tuple[str, ...]
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_settings(self, context, self.counting(context.scene.reeb_parts.method))
+        settings = context.scene.reeb_parts
+        Room(context).properties(self.layout.column(), settings, self.counting(settings.method))
 
     @classmethod
     def counting(cls, method: str) -> list[str]:
@@ -72,9 +86,7 @@ class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
 
 class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
     bl_label = "Overlay"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        draw_settings(self, context, ("node_size", "line_thickness", "in_front", "highlight", "show_cuts", "small"))
+    names = (*OVERLAY, "highlight", "show_cuts", "small")
 
 
 CLASSES = (

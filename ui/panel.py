@@ -3,36 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
-from mathutils import Matrix
 
 from ..core.sentence import Count
 from ..scene import modes, store, targets
 from ..scene.graph import graph_finding, graph_objects
 from ..scene.pieces import piece_objects
-from ..scene.result import notes, part_list, part_names
+from ..scene.result import notes, part_names
 from ..scene.runs import jobs
-from . import toolbar
+from . import parts_list, toolbar
 from .fitting import Room
 
 MODELS = 8  # so many selected models are listed
-ROWS, MOST_ROWS = 7, 12  # of the list, if it has so many parts and the sidebar is high enough
-ROW, OTHER_ROWS = 20, 320  # heights of a row and of all but the list, in pixels of a screen without scaling
-
-# Widths of panels, in pixels of a screen without scaling, below which something is left out or moves.
-BUTTONS_BESIDE = 150  # the buttons beside the list stand below it
-LOCKS = 150  # no locks in the list
-WIDE_CHIPS = 120  # colors are stripes only
-TICKS = 90  # no boxes to tick: parts are marked with the tool, or by the menu
-FOLD = 18  # what folds a panel, before its words
-# What a row of the list has besides a part's name and share: its frame, the bar that scrolls it, the buttons beside it.
-FRAME, BAR, BESIDE = 12, 18, 28
+FOLD = 18  # width of what folds a panel, before its words, in pixels of a screen without scaling
 BETWEEN = 0.43  # share of its row that the number of parts has between the two buttons where all is narrow
-# By the region, whether its list has a bar; Blender does not tell. Of one that the user dragged shorter it is unknown.
-_scrolls: dict[int, bool] = {}
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -52,67 +37,6 @@ class SubPanel(ReebPanel):
     """The panels below the first one."""
 
     bl_parent_id = "REEB_PARTS_PT_main"
-
-
-def draw_settings(panel: bpy.types.Panel, context: bpy.types.Context, names: Iterable[str]) -> None:
-    """Settings of the scene, by name, one below the other."""
-    Room(context).properties(panel.layout.column(), context.scene.reeb_parts, names)
-
-
-class REEB_PARTS_UL_parts(bpy.types.UIList):
-    """Parts with color, name, share of the area, lock and mark; small ones are left out of a long list."""
-
-    def draw_item(self, context: bpy.types.Context, layout: bpy.types.UILayout, data: bpy.types.PropertyGroup,
-                  item: bpy.types.PropertyGroup, icon: int, active_data: bpy.types.PropertyGroup, active_property: str,
-                  index: int) -> None:
-        row = layout.row(align=True)
-        room = Room(context)
-        chip = row.row()
-        chip.ui_units_x = 1.0 if room.width >= WIDE_CHIPS else 0.4
-        chip.prop(item, "color", text="")
-        row.prop(item, "name", text="", emboss=False)
-        percent = f"{100 * item.share:.1f} %"
-        if _has_share(room, item.name, percent, _scrolls.get(context.region.as_pointer(), True)):
-            share = row.row()
-            share.alignment = "RIGHT"
-            share.label(text=percent)
-        if room.width >= LOCKS:
-            unlocked = "PINNED" if item.pinned else "UNLOCKED"
-            row.prop(item, "locked", text="", emboss=False, icon="LOCKED" if item.locked else unlocked)
-        if room.width >= TICKS:
-            row.prop(item, "selected", text="", emboss=False,
-                     icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
-
-    def draw_filter(self, context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-        row = layout.row(align=True)
-        row.prop(self, "filter_name", text="", icon="VIEWZOOM")
-        row.prop(context.scene.reeb_parts, "sort", text="")
-
-    def filter_items(self, context: bpy.types.Context, data: bpy.types.PropertyGroup, property: str
-                     ) -> tuple[list[int], list[int]]:
-        parts, settings = getattr(data, property), context.scene.reeb_parts
-        flags = [self.bitflag_filter_item] * len(parts)
-        if self.filter_name:  # a small part that is looked for by its name is shown
-            flags = bpy.types.UI_UL_list.filter_items_by_name(
-                self.filter_name, self.bitflag_filter_item, parts, "name")
-        elif left_out := part_list.folded(data.id_data):
-            flags = [0 if part.number in left_out else self.bitflag_filter_item for part in parts]
-        shown = sum(bool(flag) != self.use_filter_invert for flag in flags)
-        _scrolls[context.region.as_pointer()] = shown > _most_rows(context)
-        matrix = context.object.matrix_world if context.object is not None else Matrix()
-        return flags, part_list.ordered(parts, settings.sort, matrix)
-
-
-def _most_rows(context: bpy.types.Context) -> int:
-    """How many rows the list has at most, unless the user drags it longer."""
-    height = context.region.height / context.preferences.system.ui_scale
-    return min(max(int((height - OTHER_ROWS) / ROW), ROWS), MOST_ROWS)
-
-
-def _has_share(room: Room, name: str, percent: str, scrolls: bool) -> bool:
-    """Whether the share of a part fits beside its name: the name is the last to be cut off."""
-    buttons = BESIDE + FRAME + BAR * scrolls + 3 * ROW  # the color, the lock and the tick
-    return room.width >= LOCKS and room.text(name) + room.text(percent) + 2 * 8 <= room.width - buttons
 
 
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
@@ -276,21 +200,11 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: R
         room.wrapped(column, text.format(n=Count(result.asked), fewest=result.fewest, most=result.most), "ERROR")
 
 
-def facts(result: bpy.types.PropertyGroup) -> list[str]:
-    """What came out, in two lines."""
-    parts = iface_("{n} {n:part|parts}").format(n=Count(len(result.parts)))
-    graph = iface_("{nodes}, {arcs}, {loops}").format(
-        nodes=iface_("{n} {n:node|nodes}").format(n=Count(result.n_nodes)),
-        arcs=iface_("{n} {n:arc|arcs}").format(n=Count(result.n_arcs)),
-        loops=iface_("{n} {n:loop|loops}").format(n=Count(result.n_loops)))
-    return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), graph]
-
-
 def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
                 result: bpy.types.PropertyGroup) -> None:
     """The list, what is done with its parts, and the way to objects."""
-    _draw_list(layout, context, room, result)
-    _draw_small(layout, context, room, result)
+    parts_list.draw(layout, context, room, result)
+    parts_list.draw_small(layout, context, room, result)
     _draw_tools(layout, context, room)
     words = [iface_(word, "Operator") for word in ("Select", "Isolate", "Show All")]
     row = room.row(layout, *words)
@@ -306,42 +220,6 @@ def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, room: Ro
     room.operator(row, "reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
     if piece_objects.hides_pieces(context, context.object):
         room.operator(layout, "reeb_parts.show_pieces", icon="HIDE_OFF")
-
-
-def _draw_list(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
-               result: bpy.types.PropertyGroup) -> None:
-    """The list with its buttons, beside it or below it; it grows with its parts as far as the sidebar is high."""
-    beside = room.width >= BUTTONS_BESIDE
-    row = layout.row() if beside else layout.column(align=True)
-    row.template_list(
-        "REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=ROWS, maxrows=_most_rows(context))
-    column = row.column(align=True) if beside else row.grid_flow(
-        row_major=True, columns=6 if room.width >= 6 * ROW else 3, even_columns=True, align=True)
-    column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
-    column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
-    if beside:
-        column.separator()
-    column.operator("reeb_parts.grow", text="", icon="ADD")
-    column.operator("reeb_parts.shrink", text="", icon="REMOVE")
-    if beside:
-        column.separator()
-    column.operator("reeb_parts.frame", text="", icon="VIEWZOOM")
-    # Where it is wider than an icon, Blender draws an arrow by itself.
-    column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT" if beside else "NONE")
-
-
-def _draw_small(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
-                result: bpy.types.PropertyGroup) -> None:
-    """One row for all small parts of a long list."""
-    small = part_list.small_parts(result.id_data)
-    if not small:
-        return
-    settings = context.scene.reeb_parts
-    text = iface_("{n} Small {n:Part|Parts}").format(n=Count(len(small)))
-    row = room.row(layout, text, iface_("Merge Small", "Operator"), icons=1)
-    row.prop(settings, "show_small", text=text,
-             icon="DOWNARROW_HLT" if settings.show_small else "RIGHTARROW", toggle=True)
-    room.operator(row, "reeb_parts.merge_small", text="Merge Small", spare="AUTOMERGE_ON")
 
 
 def _draw_tools(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
@@ -375,4 +253,4 @@ class REEB_PARTS_PT_rename(bpy.types.Panel):
         row.prop(result.parts[result.active], "name", text="")
 
 
-CLASSES = (REEB_PARTS_UL_parts, REEB_PARTS_PT_main, REEB_PARTS_PT_rename)
+CLASSES = (REEB_PARTS_PT_main, REEB_PARTS_PT_rename)

@@ -15,7 +15,8 @@ from ..scene.errors import SceneError
 from ..scene.pieces import cut_list, origins, piece_checks, piece_objects
 from ..scene.reading.placing import length_words
 from .fitting import Room
-from .panel import BAR, FRAME, SubPanel
+from .panel import SubPanel
+from .parts_list import BAR, FRAME
 
 #: Why a cut has no joint, see joints.CutJoints.
 REASONS = {"ROOM": n_("No room with a wall around it"), "BENT": n_("Too bent to have an axis"),

@@ -44,11 +44,11 @@ def steps():
 def shares_of(*names):
     """With which names the largest part has its share in the list: while all rows are seen, and while it scrolls."""
     part, found = max(spot().data.reeb_parts.parts, key=lambda part: part.share), {}
-    (panel,) = (module for name, module in sys.modules.items() if name.endswith("reeb_parts.ui.panel"))
-    own, asked, before, most = panel._has_share, {}, part.name, panel.MOST_ROWS
-    panel._has_share = lambda room, name, *rest: asked.setdefault(name, own(room, name, *rest))
-    for key, rows in (("all", most), ("scrolled", panel.ROWS)):
-        panel.MOST_ROWS, found[key] = rows, []
+    (listing,) = (module for name, module in sys.modules.items() if name.endswith("reeb_parts.ui.parts_list"))
+    own, asked, before, most = listing._has_share, {}, part.name, listing.MOST_ROWS
+    listing._has_share = lambda room, name, *rest: asked.setdefault(name, own(room, name, *rest))
+    for key, rows in (("all", most), ("scrolled", listing.ROWS)):
+        listing.MOST_ROWS, found[key] = rows, []
         for name in names:
             part.name = name
             for _ in range(2):
@@ -57,7 +57,7 @@ def shares_of(*names):
                 yield 0.5
             found[key] += [name] if asked[name] else []
             pointer.shot(f"share_{key}_{name}.png")
-    panel._has_share, panel.MOST_ROWS, part.name = own, most, before
+    listing._has_share, listing.MOST_ROWS, part.name = own, most, before
     return found
 
 

@@ -266,7 +266,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
     bpy.ops.wm.open_mainfile(filepath=path)
     result = bpy.data.objects["Tree"].data.reeb_parts
     assert said["note"] in importlib.import_module(f"{package}.scene.result.notes").spoken(result)
-    lines = importlib.import_module(f"{package}.ui.panel").facts(result)
+    lines = importlib.import_module(f"{package}.ui.advanced_panel").facts(result)
     for line, expected in zip(lines, said["facts"], strict=True):
         assert re.fullmatch(expected, line)
 
