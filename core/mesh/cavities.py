@@ -46,7 +46,7 @@ def find_cavities(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
     around[~closed | (pieces.volume >= 0)] = -1
     hollow = [k for k in np.flatnonzero(large & (around >= 0)).tolist()
               if _runs_along(given, piece == k, piece == around[k], pieces.diameter[around[k]])]
-    is_cavity = ~large & np.isin(around, around[hollow]) & (around >= 0)
+    is_cavity = ~large & np.isin(around, around[hollow])
     is_cavity[hollow] = True
     return np.where(is_cavity, around, -1) if hollow else None
 

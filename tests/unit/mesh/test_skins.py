@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Second skins, such as outlines, and the inner walls of hollow bodies have the parts of what they run along."""
+"""Second skins, such as outlines, have the parts of what they are skins of."""
 
 import numpy as np
 import pytest
@@ -27,14 +27,6 @@ def skin(shape, distance):
         np.add.at(normal, column, across)
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     return shapes.Shape(vertices + distance * normal, np.roll(faces[:, ::-1], 1, axis=1))
-
-
-def dumbbell(scale=1.0):
-    """A body of revolution with two balls: its radius so many times as large."""
-    height = np.linspace(-2.0, 2.0, 60)
-    radius = 0.25 + 0.75 * np.clip(1 - ((np.abs(height) - 1.2) / 0.8) ** 2, 0, 1) ** 0.5
-    radius[[0, -1]] = 0.0
-    return shapes.lathe(scale * radius, height * (1 - 0.05 * (1 - scale)), 24)
 
 
 @pytest.mark.parametrize("distance", [0.03, -0.03])
@@ -95,36 +87,34 @@ def test_nine_tenths_of_the_area_are_of_skins(size, found):
     assert (find_copies(PolygonMesh.of(*beside)) is not None) == found
 
 
-@pytest.mark.parametrize("inner", [dumbbell(0.9), shapes.subdivide(dumbbell(0.9))], ids=["like", "finer"])
-def test_a_hollow_body_has_the_parts_of_the_body(inner):
-    """Prints with walls of a fiftieth of their diameter lost up to half of their parts."""
-    outer = dumbbell()
-    alone = decompose(*outer)
-    result = decompose(*shapes.together(outer, shapes.inside_out(inner)))
-    labels, expected = result.parts(n_parts=3).labels, alone.parts(n_parts=3).labels
-    assert len(np.unique(np.stack([expected, labels[:len(outer.faces)]]), axis=1).T) == 3 == labels.max() + 1
-    # The walls of a ball are one part, up to the first row of faces beside a cut.
-    end = np.abs(inner.vertices[inner.faces][:, :, 2].mean(axis=1)) > 1.0
-    upper = inner.vertices[inner.faces][:, :, 2].mean(axis=1) > 0
-    for side in (upper, ~upper):
-        assert len(np.unique(labels[len(outer.faces):][end & side])) == 1
-    assert len(np.unique(labels[len(outer.faces):][end])) == 2
+ROUND = np.linspace(0, np.pi, 41)  # from pole to pole
 
 
-def test_what_is_small_in_a_hollow_body_is_part_of_the_cavity():
-    bubble = shapes.inside_out(shapes.moved(shapes.icosphere(0, 0.03), (0.0, 0.0, 0.97)))
-    ball, inner = shapes.icosphere(3), shapes.inside_out(shapes.icosphere(2, 0.93))
-    copies = find_copies(PolygonMesh.of(*shapes.together(ball, inner, bubble)))
-    assert copies.n_copies == len(inner.faces) + len(bubble.faces)
-    assert find_copies(PolygonMesh.of(*shapes.together(ball, bubble))) is None
+def has_skin(radius):
+    """Whether a ball has a skin, a body of revolution of the same faces. radius : (41,), of its rings."""
+    ball, around = (shapes.lathe(rings * np.sin(ROUND), -rings * np.cos(ROUND), 24) for rings in (np.ones(41), radius))
+    copies = find_copies(PolygonMesh.of(*shapes.together(ball, shapes.inside_out(around))))
+    assert copies is None or copies.n_copies == len(around.faces)
+    return copies is not None
 
 
-def test_no_cavity_is_what_looks_outwards_is_open_or_lies_deep_within():
-    ball, inner = shapes.icosphere(3), shapes.icosphere(2, 0.93)
-    inside_out = shapes.inside_out(inner)
-    for other in (inner, shapes.Shape(inside_out.vertices, inside_out.faces[1:]),
-                  shapes.inside_out(shapes.icosphere(2, 0.5)), shapes.moved(inside_out, (0.5, 0.0, 0.0))):
-        assert find_copies(PolygonMesh.of(*shapes.together(ball, other))) is None
+@pytest.mark.parametrize(("share", "found"), [(0.028, True), (0.032, False)])
+def test_a_skin_is_three_hundredths_of_the_diameter_away_at_most(share, found):
+    """Around a ball: the diameter of the mesh is that of the skin."""
+    diameter = np.sqrt(12.0) / (1 - share * np.sqrt(12.0))
+    assert has_skin(np.full(41, 1 + share * diameter)) == found
+
+
+@pytest.mark.parametrize(("angle", "found"), [(55, True), (65, False)])
+def test_a_skin_looks_the_other_way_but_for_sixty_degrees(angle, found):
+    """In folds, whose sides are turned by so much from the ball."""
+    assert has_skin(1.03 * (1 + np.tan(np.radians(angle)) * ROUND[1] * (np.arange(41) % 2 - 0.5))) == found
+
+
+@pytest.mark.parametrize(("bulge", "found"), [(8, True), (9, False)])
+def test_seven_tenths_of_a_skin_run_along(bulge, found):
+    """All but so many of its 40 rings and the next, which go off to 1.4: 0.74 of its area, or 0.698."""
+    assert has_skin(np.where(np.arange(41) <= bulge, 1.4, 1.03)) == found
 
 
 def test_a_skin_counts_neither_in_samples_nor_in_descriptors():
