@@ -248,8 +248,10 @@ def test_callers_may_have_numpy_raise():
     """Weights of what is far away underflow, and become 0; as in carried_labels, see there."""
     vertices, faces = shapes.together(shapes.box(), shapes.moved(shapes.box(), (0, 0, 1.02)))
     with np.errstate(all="raise"):
-        result = decompose(vertices, faces)
-        part_descriptors(vertices, faces, result.parts())
+        parts = decompose(vertices, faces).parts()
+        found = part_descriptors(vertices, faces, parts)
+    np.testing.assert_array_equal(parts.labels, decompose(vertices, faces).parts().labels)
+    np.testing.assert_array_equal(found, part_descriptors(vertices, faces, parts))
 
 
 def test_single_precision_is_enough(preset):

@@ -99,4 +99,5 @@ def test_faces_without_area_give_no_warning():
     flat = np.vstack([faces, [[0, 0, 1], [0, 1, 1], [2, 2, 2]]])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        picture(TriMesh(vertices, flat), np.tile(RED, (len(flat), 1)), 40)
+        seen = picture(TriMesh(vertices, flat), np.tile(RED, (len(flat), 1)), 40)
+    assert (seen == picture(TriMesh(vertices, faces), np.tile(RED, (len(faces), 1)), 40)).all()
