@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What counts as a ground, bound by bound; what becomes of those that do is in tests/unit/whole/test_grounds.py."""
+
+import numpy as np
+import pytest
+import shapes
+from floors import collider, column, has_ground, hills, sheet, tree
+
+from core.mesh.polygons import PolygonMesh
+
+BOX = shapes.box((1, 1, 1))
+
+
+def of_size(shape, area):
+    """A shape at the origin, of an area."""
+    own = PolygonMesh.of(*shape).triangles.area
+    return shapes.Shape(np.sqrt(area / own) * shape.vertices, shape.faces)
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.205, True), (0.195, False)])
+def test_a_ground_has_a_fifth_of_the_area(share, found):
+    """A floor of 36 under a column 1 wide, whose area is 2 and 4 times its height."""
+    assert has_ground(sheet(6), column((36 / share - 38) / 4, 0)) == found
+
+
+@pytest.mark.parametrize(("share", "found"), [(1.1e-6, True), (0.9e-6, False)])
+def test_what_stands_there_has_a_millionth_of_it(share, found):
+    assert has_ground(sheet(np.sqrt(6 / share)), shapes.subdivide(BOX)) == found
+
+
+@pytest.mark.parametrize(("width", "found"), [(1.75, True), (1.71, False)])
+def test_a_ground_is_three_times_as_large(width, found):
+    """Squares of 3.06 and 2.92 under a square of 1."""
+    assert has_ground(sheet(width), BOX) == found
+
+
+def band(half_turn):
+    """A wall around the z-axis, 5 from it and 12 high: so many degrees to either side of the x-axis."""
+    vertices, faces = shapes.cylinder(3, 360, 5.0, 12.0)
+    x, y, z = vertices[faces].mean(axis=1).T
+    return shapes.Shape(vertices, faces[(np.abs(np.degrees(np.arctan2(y, x))) < half_turn) & (z > 0) & (z < 12)])
+
+
+INSIDE = shapes.moved(BOX, (3.0, -0.5, 6.0))
+
+
+@pytest.mark.parametrize(("more", "found"), [(0, True), (-1, False)])
+def test_a_ground_of_any_shape_has_a_twentieth_of_the_faces(more, found):
+    """A wall that goes round most of what is in it, which no direction shows whole."""
+    wall = band(140)
+    vertices, faces = INSIDE
+    for _ in range(6):
+        vertices, faces = shapes.subdivide(shapes.Shape(vertices, faces))
+    thing = shapes.Shape(vertices, faces[:19 * len(wall.faces) + more])
+    assert len(thing.faces) == 19 * len(wall.faces) + more
+    assert has_ground(wall, thing) == found
+
+
+@pytest.mark.parametrize(("half_turn", "found"), [(94, True), (95, False)])
+def test_two_hundredths_of_a_relief_may_be_turned_away(half_turn, found):
+    """By more than a cosine of 0.05, which is three degrees: 1 of 94, and 2 of 95 degrees."""
+    assert has_ground(band(half_turn), INSIDE) == found
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.0021, True), (0.0019, False)])
+def test_what_stands_on_a_relief_has_two_thousandths_of_its_area(share, found):
+    floor = hills(15)
+    assert has_ground(floor, of_size(BOX, share * PolygonMesh.of(*floor).triangles.area)) == found
+
+
+@pytest.mark.parametrize(("depth", "found"), [(3.5, True), (3.75, False)])
+def test_a_slab_is_four_tenths_as_deep_as_wide(depth, found):
+    """Under a column that is higher than the slab is wide; of 12 triangles, whose corners do not weigh alike."""
+    assert has_ground(sheet(10, depth=depth), column(33, 0)) == found
+
+
+@pytest.mark.parametrize(("height", "found"), [(0.11, True), (0.09, False)])
+def test_what_stands_there_is_a_tenth_as_high_as_wide(height, found):
+    floor = shapes.Shape(sheet(6, 12).vertices * (1.0, 1.5, 1.0), sheet(6, 12).faces)  # a square has no axes of its own
+    assert has_ground(floor, shapes.box((1, 1, height))) == found
+
+
+@pytest.mark.parametrize(("side", "found"), [(0.22, True), (0.24, False)])
+def test_a_twentieth_of_it_may_be_below(side, found):
+    """A box of side 1 above and a smaller one below, of 0.046 and 0.054 of the area of both."""
+    below = shapes.moved(shapes.box((side, side, side)), (0.3, 0.3, -0.5))
+    assert has_ground(sheet(6), shapes.moved(BOX, (-0.5, -0.5, 0.1)), below) == found
+
+
+@pytest.mark.parametrize(("beyond", "found"), [(0.0008, True), (0.0012, False)])
+def test_what_is_in_a_shell_reaches_out_of_it_by_rounding_only(beyond, found):
+    """Out of the bottom of a box around the tree that is little larger than the tree."""
+    vertices = collider().vertices
+    low, high = vertices.min(axis=0) - 0.05, vertices.max(axis=0) + 0.05
+    low[2] = beyond * np.linalg.norm(high - low)
+    assert has_ground(shapes.moved(shapes.box(high - low), low), tree()) == found
