@@ -74,6 +74,15 @@ def test_a_slab_is_four_tenths_as_deep_as_wide(depth, found):
     assert has_ground(sheet(10, depth=depth), column(33, 0)) == found
 
 
+@pytest.mark.parametrize(("depth", "found"), [(0.29, True), (0.32, False)])
+def test_a_slab_of_many_faces_is_a_sheet(depth, found):
+    """Under what has a 64th of its faces: it has to be flatter by far."""
+    slab = sheet(10, depth=depth)
+    for _ in range(3):
+        slab = shapes.subdivide(slab)
+    assert has_ground(slab, shapes.box((1, 1, 33))) == found
+
+
 @pytest.mark.parametrize(("height", "found"), [(0.11, True), (0.09, False)])
 def test_what_stands_there_is_a_tenth_as_high_as_wide(height, found):
     floor = shapes.Shape(sheet(6, 12).vertices * (1.0, 1.5, 1.0), sheet(6, 12).faces)  # a square has no axes of its own
@@ -94,3 +103,36 @@ def test_what_is_in_a_shell_reaches_out_of_it_by_rounding_only(beyond, found):
     low, high = vertices.min(axis=0) - 0.05, vertices.max(axis=0) + 0.05
     low[2] = beyond * np.linalg.norm(high - low)
     assert has_ground(shapes.moved(shapes.box(high - low), low), tree()) == found
+
+
+def dented(size, depth):
+    """A box along the axes, the middle of its top pressed in."""
+    vertices, faces = shapes.box((size, size, size))
+    top = (vertices[faces][..., 2] == size).all(axis=1)
+    rim = [int(np.flatnonzero((vertices == corner).all(axis=1))[0]) for corner in size * np.array(
+        [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])]
+    fan = [(a, b, len(vertices)) for a, b in zip(rim, [*rim[1:], rim[0]], strict=True)]
+    return shapes.Shape(np.vstack([vertices, [(size / 2, size / 2, size - depth)]]), np.vstack([faces[~top], fan]))
+
+
+PLATES = [shapes.box((1, 1, 0.02)), shapes.moved(shapes.box((1, 1, 0.02)), (3, 3, 0))]  # 0.01 deeper than their tops
+
+
+@pytest.mark.parametrize(("pressed", "found"), [(2.4, True), (2.6, False)])
+def test_the_area_of_a_shell_is_that_of_its_hull_but_for_two_hundredths(pressed, found):
+    """A top of 100 of 600 is pressed in: it has 20 times the root of 25 and the square of that, 11 or 13 more."""
+    plates = [shapes.moved(plate, (2, 2, 4)) for plate in PLATES]
+    assert has_ground(dented(10, pressed), *plates) == found
+
+
+@pytest.mark.parametrize(("depth", "found"), [(0.17, True), (0.155, False)])
+def test_what_is_in_a_shell_is_a_hundredth_of_its_diameter_deep(depth, found):
+    """0.18 or 0.165, where it has to be 0.173: a hundredth of the diagonal of a cube of 10."""
+    plates = [shapes.moved(plate, (3, 3, 10 - 0.02 - depth)) for plate in PLATES]
+    assert has_ground(shapes.box((10, 10, 10)), *plates) == found
+
+
+@pytest.mark.parametrize(("pressed", "found"), [(0.07, True), (0.05, False)])
+def test_what_is_in_a_shell_has_less_than_98_hundredths_of_its_own_hull(pressed, found):
+    """A cube of which a third of what it is pressed in is missing: else the shell is the outer wall of a box."""
+    assert has_ground(shapes.box((10, 10, 10)), shapes.moved(dented(1, pressed), (4, 4, 4))) == found
