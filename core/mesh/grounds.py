@@ -17,6 +17,7 @@ from ..arrays.indexing import place_among, spread_evenly, taken
 from ..arrays.vectors import cross, inner_products, lengths, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
+from .terrain import WIDER as WIDER_TERRAIN
 from .terrain import outline_area, rising_faces
 from .triangles import TriMesh
 
@@ -28,7 +29,6 @@ SHARE, LEAST = 0.2, 1e-6
 # Its two long sides are not shorter than those of the rest and, multiplied, so many times as large. Of no more than a
 # share of the faces that is all: a backdrop, a dome, a room.
 WIDER, FEW_FACES = 3.0, 0.05
-WIDER_TERRAIN = 1.5  # if it is one surface with what stands on it
 # Otherwise these are the sides that lie across, and it is flat: its points are spread about its plane less than within
 # it by the first of these, or by the second with few faces. Doors and shields are slabs of many.
 SHEET, SLAB = 0.05, 0.4

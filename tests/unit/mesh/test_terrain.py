@@ -62,6 +62,75 @@ def test_it_is_found_however_the_mesh_is_given(name):
         assert (standing(noisy(shape, size), shape.faces) != stands).mean() < 0.02
 
 
+def mesa(*profile, n=64):
+    """What the profile, (radius, height) from the middle outwards, is when it is turned around the third axis.
+
+    Returns the shape, and the segment of the profile that each face is of.
+    """
+    radius, height = np.transpose([(0, profile[0][1]), *profile])
+    vertices, faces = shapes.lathe([*radius, 0], [*height, height[-1]], n)
+    ring = np.append(np.repeat(np.arange(1, len(radius)), n), 0)  # of each vertex
+    faces = faces[:-n]  # open below
+    return shapes.Shape(vertices[:-1], faces), ring[faces].max(axis=1) - 1
+
+
+def rising_segments(*profile):
+    """The segments of the profile that stand on the others; all of them if there is no terrain."""
+    shape, segment = mesa(*profile)
+    stands = standing(*shape)
+    for one in set(segment):
+        assert len(set(stands[segment == one])) == 1
+    return sorted(set(segment[stands].tolist()))
+
+
+@pytest.mark.parametrize(("degrees", "found"), [(58, [0, 1, 2]), (62, [0, 1])])
+def test_what_rises_by_less_than_60_degrees_is_terrain(degrees, found):
+    foot = 1 + 1 / np.tan(np.radians(degrees))
+    assert rising_segments((1, 1), (foot, 0), (4, 0)) == found
+
+
+@pytest.mark.parametrize(("ratio", "found"), [(1.45, [0, 1, 2, 3]), (1.55, [0, 1, 2])])
+def test_terrain_is_half_as_large_again_as_what_stands_there(ratio, found):
+    """A mushroom."""
+    assert rising_segments((1, 1), (0.3, 0.9), (0.29, 0), (np.sqrt(ratio), 0)) == found
+
+
+@pytest.mark.parametrize(("high", "low", "found"), [
+    (2, 0.38, False), (2, 0.42, True), (0.6, 0.14, False), (0.6, 0.16, True)])
+def test_what_is_no_higher_than_a_hill_is_terrain_but_beside_low_things(high, low, found):
+    """A hill is 0.05 of the root of the outline, here 0.4, or a quarter of the highest thing."""
+    vertices, faces = shapes.flat_grid(160, 160, 0.05)
+    in_squares = [(np.abs(vertices - (x, 4, 0)).max(axis=1) < 0.5) for x in (3, 5)]
+    vertices[in_squares[0], 2], vertices[in_squares[1], 2] = high, low
+    stands = standing(vertices, faces)
+    high_one, low_one = (square[faces].all(axis=1) for square in in_squares)
+    assert stands[high_one].all()
+    assert not stands.all()
+    assert stands[low_one].all() == stands[low_one].any() == found
+
+
+@pytest.mark.parametrize(("kept", "found"), [(0.45, False), (0.55, True)])
+def test_terrain_covers_half_of_the_outline(kept, found):
+    """Spokes around a mesa that is but for them alone."""
+    (vertices, faces), segment = mesa((0.5, 1), (0.51, 0), (0.6, 0), (4, 0), n=400)
+    angle = np.arctan2(*vertices[faces][..., :2].mean(axis=1).T)
+    spokes = (segment < 3) | (angle % (np.pi / 5) < kept * np.pi / 5)
+    assert standing(vertices, faces[spokes]).all() != found
+
+
+@pytest.mark.parametrize(("depth", "found"), [(0.6, True), (0.7, False)])
+def test_solid_terrain_is_thin(depth, found):
+    """A skirt of which the lower half is lower than a hill: 0.097 and 0.11 of the area."""
+    shape, _ = mesa((1, 2), (1.01, 0), (4, 0), (4.001, -depth / 2), (4.002, -depth))
+    assert standing(*shape).all() != found
+
+
+def test_noise_of_half_an_edge_is_averaged():
+    slab = GROUNDS["slab"]
+    vertices = slab.vertices + 0.06 * np.random.default_rng(1).normal(size=slab.vertices.shape)
+    assert (standing(vertices, slab.faces) != standing(*slab)).mean() < 0.01
+
+
 def test_other_pieces_stand_there_too():
     bird = shapes.moved(shapes.icosphere(2, 0.3), (1.0, 1.0, 2.0))
     stands = standing(*shapes.together(bird, PATCH))
