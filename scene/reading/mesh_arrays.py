@@ -136,18 +136,16 @@ def forget() -> None:
 def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Vertex and face of each corner of a mesh, two (c,) int32 arrays; not in Edit Mode.
 
-    Kept for as long as the stored result is that of the mesh: the caller has made sure of that, or has
-    just stored it.
+    Kept for as long as a mesh that has a result has the same corners: an edit may leave as many in another order.
     """
-    key = _result_key(mesh)
-    if key not in _face_corners:
+    key, vertex = _result_key(mesh), corner_vertices(mesh)
+    if key not in _face_corners or not np.array_equal(_face_corners[key][0], vertex):
         total = face_sizes(mesh)
         face = np.repeat(np.arange(len(total), dtype=np.int32), total)
-        corners = corner_vertices(mesh), face
         if not key[0]:
-            return corners
-        _face_corners.clear()
-        _face_corners[key] = corners
+            return vertex, face
+        forget()
+        _face_corners[key] = vertex, face
     return _face_corners[key]
 
 

@@ -66,3 +66,26 @@ def test_shape_keys_are_read_and_written_as_blender_has_them_in_no_time(package)
     at_once, found = seconds(lambda: module.key_points(key))
     assert np.array_equal(found, wanted)
     assert max(written, at_once) < 0.1 * one_by_one
+
+
+def test_corners_are_read_again_once_they_are_in_another_order(scene_module, make):
+    """Sort Elements leaves as many, and the stored result is that of before: pinned parts were cut along edges
+    that were elsewhere by then, or there was an error.
+    """
+    mesh_arrays = scene_module("reading.mesh_arrays")
+    corner = np.arange(20).reshape(4, 5)[:-1, :-1].ravel()
+    faces = np.stack([corner, corner + 1, corner + 6, corner + 5], axis=1)
+    points = np.stack([*np.divmod(np.arange(20), 5), np.zeros(20)], axis=1)
+    # Two sheets side by side, whose vertices are split where they meet.
+    mesh = make((np.concatenate([points, points + (3.0, 0.0, 0.0)]), np.concatenate([faces, faces + 20]))).data
+    bpy.ops.reeb_parts.decompose()
+    mesh_arrays.joined_table(mesh)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.sort_elements(type="RANDOMIZE", elements={"VERT", "EDGE", "FACE"})
+    bpy.ops.object.mode_set(mode="OBJECT")
+    found = mesh_arrays.joined_table(mesh)
+    mesh_arrays.forget()
+    wanted = mesh_arrays.joined_table(mesh)
+    for name in ("edges", "corner_vertex", "corner_edge", "corner_face"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(wanted, name))
