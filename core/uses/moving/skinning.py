@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from operator import itemgetter
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array, diags_array, eye_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
@@ -39,6 +39,7 @@ BENT = np.pi / 3
 #: How many bones may move a vertex; what game engines take.
 MOST_BONES = 4
 _LITTLE = 1e-9  # share of a weight that stays at least when the fifth is taken from it, so that none of the four is 0
+_HOLD = 1e-9  # how strongly a share is held where nothing else does, beside what surfaces do
 _NEEDLE = 0.5e-6  # area of a needle over the square of its length
 _STEPS = 1024  # weights are multiples of 1 / _STEPS
 
@@ -124,9 +125,18 @@ class _Joint:
         if len(inside):
             known, rows = share.copy(), laplacian[inside]
             known[inside] = 0.0
-            share[inside] = solved(rows[:, inside], -(rows @ known)).clip(0.0, 1.0)
+            share[inside] = _harmonic(rows[:, inside], -(rows @ known), share[inside]).clip(0.0, 1.0)
         share = 0.5 * share + 0.5 * share**2 * (3 - 2 * share)  # less of a crease where the change begins and ends
         return share / np.maximum(1 - share, 1e-9)
+
+
+def _harmonic(matrix: csr_array, right: np.ndarray, guess: np.ndarray) -> np.ndarray:
+    """Solve a Laplacian system, (k,); what hangs on nothing that is known, as faces without an area, keeps a guess."""
+    try:
+        return solved(matrix, right)
+    except RuntimeError:  # of SciPy: the matrix is singular
+        little = _HOLD * max(abs(matrix).max(), np.finfo(float).tiny)
+        return solved(matrix + little * eye_array(len(right), format="csr"), right + little * guess)
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from scipy.sparse import csr_array
 
 from core import decompose
 from core.mesh.corners import CornerTable
@@ -262,3 +263,14 @@ def test_every_joint_there_is_bends_by_60_degrees_and_keeps_the_volume(shape, co
         for turn in bends(along, np.pi / 3):
             moved = vertices + share[:, None] * ((vertices - bones.head[bone]) @ (turn - np.eye(3)).T)
             assert shapes.volume(moved, faces) == pytest.approx(shapes.volume(vertices, faces), rel=0.1)
+
+
+def test_a_vertex_that_hangs_on_nothing_keeps_its_share():
+    """As one whose faces have no area: the system was singular, and no armature was made."""
+    laplacian = csr_array(np.diag([1.0, 2.0, 2.0, 2.0, 1.0, 0.0]) - np.diag([1.0] * 4 + [0.0], 1)
+                          - np.diag([1.0] * 4 + [0.0], -1))
+    joint = skinning._Joint(0, np.array([1, 2, 3, 5]), np.array([0.95, 0.0, 0.95, 0.5]),
+                            np.array([-1, -1, 0, 1, 1, 1], np.int8), {1: True, -1: True})
+    share = np.array([0.0, 0.25, 0.5, 0.75, 1.0, 0.75])
+    eased = 0.5 * share + 0.5 * share**2 * (3 - 2 * share)
+    np.testing.assert_allclose(joint.odds(laplacian), eased / np.maximum(1 - eased, 1e-9), rtol=1e-6)
