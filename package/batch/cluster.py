@@ -88,7 +88,10 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         return
     try:
         client = Client(scheduler, timeout=PATIENCE)
-    except (OSError, ValueError) as error:
+    except ValueError as error:
+        raise ClusterError(Sentence("{address} is no address of a scheduler, such as tcp://host:8786.",
+                                    address=scheduler or "An empty word")) from error
+    except OSError as error:
         raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
                                     reason=error)) from error
     with client:

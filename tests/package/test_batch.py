@@ -872,6 +872,14 @@ def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, t
         cluster.connected("tcp://127.0.0.1:1", 1, "").__enter__()
 
 
+@pytest.mark.parametrize("address", ["host", "tcp://", "http://127.0.0.1:1", "tcp://127.0.0.1:8x", ""])
+def test_what_is_no_address_of_a_scheduler_is_said(address):
+    """It was said in the words of Dask and Python: invalid literal for int() with base 10."""
+    with (pytest.raises(cluster.ClusterError, match=f"^({address or 'An empty word'}) is no address of a scheduler"),
+          cluster.connected(address, 1, ":0")):
+        pass
+
+
 def test_a_cluster_without_workers_is_said_to_have_none(request, models, tmp_path):
     """The bar of progress stood still, and nobody knew why."""
     with LocalCluster(n_workers=0, dashboard_address=None) as there:
