@@ -18,6 +18,8 @@ import dask
 import dask.utils
 from dask.system import cpu_count
 from distributed import Client, LocalCluster, as_completed
+from distributed.comm.addressing import parse_address, parse_host_port
+from distributed.comm.registry import get_backend
 from distributed.system import memory_limit
 
 from ..core.errors import ReebError
@@ -86,17 +88,27 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         with _safe_path(), _own_cluster(workers, dashboard) as client:
             yield client
         return
+    _check_address(scheduler)
     try:
         client = Client(scheduler, timeout=PATIENCE)
-    except ValueError as error:
-        raise ClusterError(Sentence("{address} is no address of a scheduler, such as tcp://host:8786.",
-                                    address=scheduler or "An empty word")) from error
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
                                     reason=error)) from error
     with client:
         _check_versions(client)
         yield client
+
+
+def _check_address(address: str) -> None:
+    """Raise ClusterError for what is no address of a scheduler; a client of one is left half made in this process."""
+    try:
+        scheme, place = parse_address(address)
+        get_backend(scheme)
+        if not scheme.startswith("ws"):  # web sockets may have a path, and no port
+            parse_host_port(place)
+    except ValueError as error:
+        raise ClusterError(Sentence("{address} is no address of a scheduler, such as tcp://host:8786.",
+                                    address=address or "An empty word")) from error
 
 
 def _check_versions(client: Client) -> None:
