@@ -32,6 +32,7 @@ WIDER, FEW_FACES = 3.0, 0.05
 # Otherwise these are the sides that lie across, and it is flat: its points are spread about its plane less than within
 # it by the first of these, or by the second with few faces. Doors and shields are slabs of many.
 SHEET, SLAB = 0.05, 0.4
+SHEET_BELOW_FEET = 0.25  # if something stands on several feet on it, and is one surface with it
 # The rest is so high then, at least, in units of the root of the area of its outline, seen from above, and no more than
 # a share of its area is on the other side: hands lie on a clock, and a vase stands on a table, which is no ground.
 HIGH, BELOW = 0.1, 0.05
@@ -169,9 +170,9 @@ def _faces_on_terrain(mesh: TriMesh) -> np.ndarray:
     if area.max() < SHARE * mesh.area:
         return stands
     part, elsewhere = np.flatnonzero(ground), ~ground
-    for rising in rising_faces(mesh if ground.all() else mesh.submesh(part)[0]):
+    for rising, on_feet in rising_faces(mesh if ground.all() else mesh.submesh(part)[0]):
         ground[part] = ~rising
-        if _is_ground(mesh, ground, ~ground, WIDER_TERRAIN, elsewhere):
+        if _is_ground(mesh, ground, ~ground, elsewhere, WIDER_TERRAIN, SHEET_BELOW_FEET if on_feet else SHEET):
             return ~ground
     return stands
 
@@ -189,12 +190,13 @@ def _ground(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, stands: np.ndarr
 
 
 def _is_ground(
-    mesh: TriMesh, mine: np.ndarray, others: np.ndarray, wider: float = WIDER, loose: np.ndarray | None = None
+    mesh: TriMesh, mine: np.ndarray, others: np.ndarray, loose: np.ndarray | None = None, wider: float = WIDER,
+    sheet: float = SHEET,
 ) -> bool:
     """Whether some faces are large beside others, and plain, or flat with the others on one side; both : (m,) bool.
 
     loose : (m,) bool, those of the others that may be on the other side of a relief than most are; all of them without
-    it.
+    it. wider, sheet : float, as WIDER and SHEET.
     """
     (weight, points), (its_weight, its_points) = (_weighted(mesh, some) for some in (mine, others))
     middle = weighted_sum(weight, points) / weight.sum()
@@ -205,7 +207,7 @@ def _is_ground(
     if _is_larger(np.sort(sides)[1:], np.sort(its_sides)[1:], wider) and (
             few or _is_relief(mesh, mine, others, others if loose is None else loose)):
         return True
-    if spread[0] > (SLAB if few else SHEET) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:], wider):
+    if spread[0] > (SLAB if few else sheet) ** 2 * spread[1] or not _is_larger(sides[1:], its_sides[1:], wider):
         return False
     thickness = np.abs(own[:, 0]).max()
     beyond = min(its_weight[side * its[:, 0] > thickness].sum() for side in (-1, 1))

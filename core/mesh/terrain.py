@@ -14,8 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays.components import components
-from ..arrays.indexing import bounds_of_each, sums_by
+from ..arrays.indexing import bounds_of_each, largest_of_each, sums_by
 from ..arrays.int64 import arange
+from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import (
     across,
     cross_in_plane,
@@ -34,15 +35,17 @@ WIDER = 1.5
 # Height of hills, in units of the root of the area of the whole outline. What stands there is higher, or, if all of it
 # is low, higher than this share of the highest.
 HILL, LOW = 0.05, 0.25
-# Terrain covers this share of the outline, at least, and this share of the area, at most, is lower by more than a hill:
-# if it is solid, it is as thin.
-COVERED, BELOW = 0.5, 0.1
+# Terrain covers this share of the outline, at least. This share of the area, at most, is lower by more than a hill: if
+# it is solid, it is as thin. What something stands on with several feet may be so thick, in the same units as hills: on
+# a table on its head each leg stands for itself.
+COVERED, BELOW, THICK = 0.5, 0.1, 0.15
+FOOT = 0.3  # share of the length of the longest seam of what stands there, from which on another one is of a foot, too
 ALONG = 0.9  # cosine of the angle to what may be up from which on a face says more precisely what it is
 SIDES = 32  # of the polygons by which outlines are measured
 ROUNDS = 5  # in which normals are averaged over their neighbors if nothing is found without: scans are noisy
 
 
-def rising_faces(mesh: TriMesh) -> Iterator[np.ndarray]:
+def rising_faces(mesh: TriMesh) -> Iterator[tuple[np.ndarray, bool]]:
     """Find faces that may stand on terrain, which all others are.
 
     Parameters
@@ -54,15 +57,22 @@ def rising_faces(mesh: TriMesh) -> Iterator[np.ndarray]:
     ------
     rising : (m,) bool
         Not none. Such faces for each direction that may be up, by normals as they are and averaged.
+    on_feet : bool
+        Whether something stands there on several feet.
     """
     for up in _directions(mesh):
         view = View(mesh, up)
         for side in (1, -1):  # the mesh may be inside out
-            if view.may_rise(side * mesh.area_normals):
-                for normals in (mesh.area_normals, _averaged(mesh)):
-                    rising = view.rising(side * normals)
-                    if rising.any() and view.is_wider_than(rising):
-                        yield rising
+            height = view.heights_over_terrain(side * mesh.area_normals)
+            if height is None or not view.may_rise(height):
+                continue
+            thin = mesh.face_area[height < -view.hill].sum() <= BELOW * mesh.area
+            for normals in (mesh.area_normals, _averaged(mesh)):
+                rising = view.rising(side * normals)
+                if rising.any() and view.is_wider_than(rising):
+                    on_feet = _stands_on_feet(mesh, rising)
+                    if thin or on_feet:
+                        yield rising, on_feet
 
 
 def _directions(mesh: TriMesh) -> list[np.ndarray]:
@@ -82,6 +92,22 @@ def _averaged(mesh: TriMesh) -> np.ndarray:
         at_vertex = unit(sums_by(mesh.faces.ravel(), np.repeat(normals, 3, axis=0), mesh.n_vertices))
         normals = mesh.face_area[:, None] * unit(at_vertex[mesh.faces].sum(axis=1))
     return normals
+
+
+def _stands_on_feet(mesh: TriMesh, rising: np.ndarray) -> bool:
+    """Whether some of the faces that rise, (m,) bool, hang together and meet the others at several places."""
+    pairs = mesh.edges.pairs
+    inside = rising[pairs]
+    count, region = components(mesh.n_faces, *pairs[inside.all(axis=1)].T)
+    seam = np.flatnonzero(inside.sum(axis=1) == 1)
+    edge = mesh.edges.pair_edge[seam]
+    ends = mesh.edges.vertices[edge]
+    n_seams, of_vertex = components(mesh.n_vertices, *ends.T)
+    of = of_vertex[ends[:, 0]]
+    length = np.bincount(of, mesh.edge_length[edge], n_seams)
+    owner, which = distinct_pairs(region[pairs[seam][inside[seam]]], of)[0].T
+    is_foot = length[which] >= FOOT * largest_of_each(owner, length[which], count)[owner]
+    return bool((np.bincount(owner, is_foot) > 1).any())
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,25 +144,29 @@ class View:
         """Whether the outline is as much larger than that of some faces, (m,) bool, as that of terrain is."""
         return self.outline >= WIDER * self._outline_of(self.mesh.faces[some])
 
-    def may_rise(self, normals: np.ndarray) -> bool:
-        """A quick look: whether terrain may cover most of the outline, with nothing below and something small above.
+    def heights_over_terrain(self, normals: np.ndarray) -> np.ndarray | None:
+        """How high faces are, (m,), over the middle height of those that face up.
 
-        Terrain is not farther from the middle height of the faces that face up than hills are. normals : (m, 3), as
-        long as the areas.
+        normals : (m, 3), as long as the areas. Returns None where these are no terrain: within a hill of that height
+        they do not cover enough of the outline.
         """
         seen = inner_products(normals, self.up)
         facing = np.flatnonzero(seen > LEVEL * self.mesh.face_area)
         if not len(facing):
-            return False
+            return None
         order = facing[np.argsort(self.level[facing])]
         weight = np.cumsum(seen[order])
-        level = self.level - self.level[order[np.searchsorted(weight, weight[-1] / 2)]]
-        covered = seen[facing[np.abs(level[facing]) <= self.hill]].sum()
-        below = self.mesh.face_area[level < -self.hill].sum()
-        if covered < COVERED * self.outline or below > BELOW * self.mesh.area:
-            return False
-        high = level > min(self.hill, level.max() / 2)
-        return bool(high.any()) and self.is_wider_than(high)
+        height = self.level - self.level[order[np.searchsorted(weight, weight[-1] / 2)]]
+        covered = seen[facing[np.abs(height[facing]) <= self.hill]].sum()
+        return height if covered >= COVERED * self.outline else None
+
+    def may_rise(self, height: np.ndarray) -> bool:
+        """A quick look: whether what is high over terrain has a small outline, and nothing is far below.
+
+        height : (m,), as of ``heights_over_terrain``.
+        """
+        high = height > min(self.hill, height.max() / 2)
+        return bool(high.any() and height.min() >= -THICK * np.sqrt(self.outline)) and self.is_wider_than(high)
 
     def rising(self, normals: np.ndarray) -> np.ndarray:
         """The faces that rise from terrain, (m,) bool; normals : (m, 3), as long as the areas.

@@ -12,7 +12,8 @@ from core.mesh.polygons import PolygonMesh
 RNG = np.random.default_rng(5)
 PATCH = shapes.figure_on_ground(7.0)
 GROUNDS = {"patch": PATCH, "narrow patch": shapes.figure_on_ground(4.5), "hills": shapes.figure_on_ground(9.0, 0.4),
-           "slab": shapes.figure_on_ground(7.0, deep=0.15)}
+           "slab": shapes.figure_on_ground(7.0, deep=0.15),
+           "thick slab": shapes.figure_on_ground(7.0, deep=0.9)}
 
 
 def standing(vertices, faces):
@@ -131,6 +132,17 @@ def test_noise_of_half_an_edge_is_averaged():
     assert (standing(vertices, slab.faces) != standing(*slab)).mean() < 0.01
 
 
+@pytest.mark.parametrize(("bar", "found"), [(False, False), (True, True)])
+def test_what_stands_on_several_feet_may_stand_on_a_thick_slab(bar, found):
+    """A table on its head does so only with a bar between its legs."""
+    solid = np.zeros((30, 30, 12), bool)
+    solid[:, :, :3] = True
+    solid[np.ix_([9, 10, 19, 20], [9, 10, 19, 20])] = True
+    if bar:
+        solid[9:21, 9:11, 8:10] = True
+    assert standing(*shapes.blocks(solid)).all() != found
+
+
 def test_other_pieces_stand_there_too():
     bird = shapes.moved(shapes.icosphere(2, 0.3), (1.0, 1.0, 2.0))
     stands = standing(*shapes.together(bird, PATCH))
@@ -151,7 +163,7 @@ def test_what_is_no_terrain():
     figure = shapes.mirrored_figure()
     assert standing(*figure).all()
     assert standing(*shapes.figure_on_ground(2.5)).all()  # narrower than its arms
-    assert standing(*shapes.figure_on_ground(7.0, deep=0.7)).all()  # a plinth, or a table on its head
+    assert standing(*shapes.figure_on_ground(7.0, deep=1.2)).all()  # a block
     assert standing(*shapes.table_of_blocks()).all()
     vertices, faces = shapes.flat_grid(30, 30, 0.2)
     away = vertices[:, :2] - vertices[:, :2].mean(axis=0)
