@@ -172,7 +172,9 @@ def _faces_on_terrain(mesh: TriMesh) -> np.ndarray:
     part, elsewhere = np.flatnonzero(ground), ~ground
     for rising, on_feet in rising_faces(mesh if ground.all() else mesh.submesh(part)[0]):
         ground[part] = ~rising
-        if _is_ground(mesh, ground, ~ground, elsewhere, WIDER_TERRAIN, SHEET_BELOW_FEET if on_feet else SHEET):
+        own, its = mesh.face_area[ground].sum(), mesh.face_area[~ground].sum()
+        if own >= SHARE * mesh.area and its > LEAST * own and _is_ground(
+                mesh, ground, ~ground, elsewhere, WIDER_TERRAIN, SHEET_BELOW_FEET if on_feet else SHEET):
             return ~ground
     return stands
 

@@ -200,7 +200,7 @@ def on_both_sides(
     """
     result = after.copy()
     moved = after != before
-    image_of = full(int(max(before.max(), *twin_number)) + 1, -1)
+    image_of = full(max(int(before.max()), *twin_number, 0) + 1, -1)
     image_of[list(twin_number)] = list(twin_number.values())
     for number in np.unique(after[moved & (twin >= 0)]).tolist():
         mine = np.flatnonzero(moved & (twin >= 0) & (after == number))

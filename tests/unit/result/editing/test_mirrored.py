@@ -70,6 +70,12 @@ def test_what_has_no_image_changes_alone():
     assert next(new) == 5  # no number was taken for an image
 
 
+def test_a_new_part_where_no_part_has_an_image():
+    """It was a traceback."""
+    before, after = np.array([1, 1]), np.array([1, 2])
+    assert on_both_sides(before, after, np.array([0, 1]), {}, lambda: 9).tolist() == [1, 2]
+
+
 def test_faces_without_twins_do_not_tell_whether_a_part_is_its_own_image():
     """Of the new part, the first two have none; of the other three, two are images of each other."""
     twin = np.array([-1, -1, *TWIN[2:8], -1, -1])
