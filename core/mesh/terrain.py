@@ -67,8 +67,8 @@ def rising_faces(mesh: TriMesh) -> Iterator[tuple[np.ndarray, bool]]:
             if height is None or not view.may_rise(height):
                 continue
             thin = mesh.face_area[height < -view.hill].sum() <= BELOW * mesh.area
-            for normals in (mesh.area_normals, _averaged(mesh)):
-                rising = view.rising(side * normals)
+            for rounds in (0, ROUNDS):
+                rising = view.rising(side * _averaged(mesh, rounds))
                 if rising.any() and view.is_wider_than(rising):
                     on_feet = _stands_on_feet(mesh, rising)
                     if thin or on_feet:
@@ -85,10 +85,10 @@ def _directions(mesh: TriMesh) -> list[np.ndarray]:
     return [direction / length, -direction / length] if length > 0 else []
 
 
-def _averaged(mesh: TriMesh) -> np.ndarray:
-    """Normals of the faces, (m, 3), averaged over their neighbors, as long as their area."""
+def _averaged(mesh: TriMesh, rounds: int) -> np.ndarray:
+    """Normals of the faces, (m, 3), averaged over their neighbors so often, as long as their area."""
     normals = mesh.area_normals
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         at_vertex = unit(sums_by(mesh.faces.ravel(), np.repeat(normals, 3, axis=0), mesh.n_vertices))
         normals = mesh.face_area[:, None] * unit(at_vertex[mesh.faces].sum(axis=1))
     return normals

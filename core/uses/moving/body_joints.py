@@ -13,7 +13,7 @@ from ...arrays.int64 import cumsum, full
 from ...arrays.pairs import distinct_pairs
 from ...arrays.vectors import cross, middles_of_each, row_products, second_moments_of_each
 from ...mesh.corners import CornerTable
-from .groups import beside, touching_groups
+from .groups import beside, off_ground, touching_groups
 from .hulls import Hull
 
 # A cut that is shorter than this share of the longest one between its two parts gets no joint of its own.
@@ -64,7 +64,7 @@ def body_joints(table: CornerTable, labels: np.ndarray, ground: np.ndarray | Non
     joints : BodyJoints
     """
     ground = np.zeros(int(labels.max()) + 1, bool) if ground is None else ground
-    pairs, joint, middle, weight = _cuts(table.within(~ground[labels]), labels)
+    pairs, joint, middle, weight = _cuts(off_ground(table, labels, ground), labels)
     contacts = touching_groups(table, labels, pairs, ground)
     pairs = np.concatenate([pairs, *([pair] for pair, _ in contacts)])
     joint = np.concatenate([joint, *(full(len(some), len(pairs) - len(contacts) + k)

@@ -12,7 +12,7 @@ from ...arrays.pairs import distinct_pairs
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
 from .bone_trees import even_tree, following, part_tree
-from .groups import touching_groups
+from .groups import off_ground, touching_groups
 from .part_images import PartImages, face_weights, middles
 
 # Least length of a bone, as a share of the diagonal of the box of all that is no ground. A shorter bone is replaced by
@@ -97,8 +97,8 @@ class BoneSurface:
 
     @property
     def off_ground(self) -> CornerTable:
-        """The table of all that is no ground, which holds nothing, also as one surface with what stands there."""
-        return self.table.within(~self.grounds[self.labels])
+        """The table of all that is no ground, see the function."""
+        return off_ground(self.table, self.labels, self.grounds)
 
     def joined(self) -> BoneSurface:
         """The surface on vertices of which no two, as files split them, are at one place."""

@@ -17,6 +17,14 @@ _NEAR, _SLACK = 0.03, 0.01
 _MOST = 2_000
 
 
+def off_ground(table: CornerTable, labels: np.ndarray, ground: np.ndarray) -> CornerTable:
+    """The table of all that is no ground, which holds nothing, also as one surface with what stands there.
+
+    table, labels, ground : as of ``touching_groups``.
+    """
+    return table.within(~ground[labels]) if ground.any() else table
+
+
 def touching_groups(table: CornerTable, labels: np.ndarray, pairs: np.ndarray,
                     ground: np.ndarray) -> list[tuple[tuple[int, int], np.ndarray]]:
     """Connect groups of parts at the places where they touch, the nearest ones first, until none touch.
@@ -46,7 +54,7 @@ def touching_groups(table: CornerTable, labels: np.ndarray, pairs: np.ndarray,
         group.merge(a, b)
     if group.n_subsets == 1:
         return []
-    size, part = table.within(~ground[labels]).diagonal, np.flatnonzero(~ground).tolist()
+    size, part = off_ground(table, labels, ground).diagonal, np.flatnonzero(~ground).tolist()
     near, slack = _NEAR * size, _SLACK * size
     points = [_points(table, labels == one, near) for one in part]
     trees = [cKDTree(some) for some in points]
