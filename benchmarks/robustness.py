@@ -85,6 +85,32 @@ def subdivided(mesh: TriMesh) -> TriMesh:
     return TriMesh(*trimesh.remesh.subdivide(mesh.vertices, mesh.faces))
 
 
+def finer_on_one_side(mesh: TriMesh) -> TriMesh:
+    """The faces beyond the middle cut into four: where they end, vertices lie within edges."""
+    import trimesh
+
+    along = mesh.face_centroids @ np.array([0.3, 1.0, 0.2])
+    beyond = along > np.median(along)
+    fine = trimesh.remesh.subdivide(mesh.vertices, mesh.faces[beyond])
+    return TriMesh(np.concatenate([mesh.vertices, fine[0]]),
+                   np.concatenate([mesh.faces[~beyond], mesh.n_vertices + fine[1]]))
+
+
+def torn(share: float):
+    """Some edges split for one of their faces only, and this face with them."""
+
+    def change(mesh: TriMesh) -> TriMesh:
+        chosen = np.flatnonzero(np.random.default_rng(SEED).random(mesh.n_faces) < share)
+        a, b, c = mesh.faces[chosen].T
+        middle = mesh.n_vertices + np.arange(len(chosen))
+        faces = mesh.faces.copy()
+        faces[chosen] = np.stack([a, middle, c], axis=1)
+        return TriMesh(np.concatenate([mesh.vertices, (mesh.vertices[a] + mesh.vertices[b]) / 2]),
+                       np.concatenate([faces, np.stack([middle, b, c], axis=1)]))
+
+    return change
+
+
 def as_quads(mesh: TriMesh) -> tuple[TriMesh, np.ndarray, np.ndarray]:
     """Triangles paired to quadrangles, flattest pairs first, and cut along the other diagonal.
 
@@ -152,6 +178,9 @@ CHANGES = {
     "decimated to 800 faces": with_faces(800),
     "decimated to 300 faces": with_faces(300),
     "subdivided": subdivided,
+    "finer on one side": finer_on_one_side,
+    "2 % of faces split at an edge that is whole for the next": torn(0.02),
+    "30 % of faces split so": torn(0.3),
     "quads instead of triangles": as_quads,
     "bent by 45 degrees": bent(45.0),
     "bent by 90 degrees": bent(90.0),

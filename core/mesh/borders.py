@@ -43,38 +43,52 @@ def joined_borders(
     beside = at_border[edges].all(axis=1)
     pairs, pair = distinct_pairs(*np.sort(joined[edges[beside]], axis=1).T)
     place = np.unique(pairs[np.bincount(pair, n_edge_faces[beside]) == 1])
-    return _joined_nearby(vertices, joined, place, corner_vertex, corner_face)
-
-
-def _joined_nearby(
-    vertices: np.ndarray, joined: np.ndarray, place: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray
-) -> np.ndarray:
-    """As ``joined``, (n,) int64, but border vertices within GAP of each other are joined, too.
-
-    Not where a face would have a corner twice: what is as small as that stays as it is. place : (k,), those at
-    which there is a border.
-    """
-    from scipy.spatial import cKDTree  # here, since Blender's panels come up without SciPy
-
-    if len(place) < 2:
-        return joined
     used = np.zeros(len(vertices), bool)
     used[corner_vertex] = True
     gap = GAP * np.linalg.norm(np.ptp(vertices[used], axis=0))
+    return joined_nearby(vertices, place, np.full(len(place), gap), joined[corner_vertex], corner_face)[joined]
+
+
+def joined_nearby(
+    vertices: np.ndarray, place: np.ndarray, within: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray
+) -> np.ndarray:
+    """Find the vertex that each vertex is joined to, if some that are near each other are one.
+
+    Not where a face would have a corner twice: what is as small as that stays as it is.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    place : (k,) int64
+        Vertices that may be joined, rising.
+    within : (k,) float64
+        How near another one must be to be one with each of them, and it with that one.
+    corner_vertex, corner_face : (c,) int64
+        As in ``joined_borders``.
+
+    Returns
+    -------
+    joined : (n,) int64
+        The first of those that are one.
+    """
+    from scipy.spatial import cKDTree  # here, since Blender's panels come up without SciPy
+
+    goal = arange(len(vertices))
+    if len(place) < 2:
+        return goal
     distance, near = cKDTree(vertices[place]).query(
-        vertices[place], k=range(2, min(NEAREST, len(place)) + 1), distance_upper_bound=gap)
-    row, column = np.nonzero(np.isfinite(distance))
+        vertices[place], k=range(2, min(NEAREST, len(place)) + 1), distance_upper_bound=float(within.max()))
+    row, column = np.nonzero(distance <= np.minimum(within[:, None], np.append(within, 0.0)[near]))
     if not len(row):
-        return joined
+        return goal
     count, group = components(len(place), row, near[row, column])
     of_vertex = full(len(vertices), -1)
     of_vertex[place] = group
-    corner = of_vertex[joined[corner_vertex]]
+    corner = of_vertex[corner_vertex]
     here = corner >= 0  # all others are no matter of this
     kept = np.ones(count, bool)
     kept[repeated_in(corner_face[here], corner[here], count=count)] = False
     first = full(count, len(vertices))
     np.minimum.at(first, group, place)
-    goal = arange(len(vertices))
     goal[place] = np.where(kept[group], first[group], place)
-    return goal[joined]
+    return goal

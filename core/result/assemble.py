@@ -78,7 +78,8 @@ def assemble(
     tables = tables_of(given, working, candidates)
     values, notes = _vertex_field(given, working, bodies, results, parameters)
     nodes, points = _graph_candidates(results, candidates.label)
-    n_contacts = len(bodies.contacts) + sum(len(r.contacts) for r in results)  # all others are links
+    # All others are links.
+    n_contacts = len(working.stitches) + len(bodies.contacts) + sum(len(r.contacts) for r in results)
     first_shown = candidates.hierarchy.parts_at(Parameters().detail)[candidates.label]
     mirror = Mirror.joined([mirror.parting(first_shown) for mirror in mirrors])
     return Decomposition(

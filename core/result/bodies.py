@@ -34,7 +34,7 @@ def contacts_and_links(
         The k contacts, faces of one body that touch; then a face of each body but the largest, and one of the nearest
         of the larger bodies.
     """
-    contacts = np.concatenate([bodies.contacts, *(r.component.polygon[r.contacts] for r in results)])
+    contacts = np.concatenate([working.stitches, bodies.contacts, *(r.component.polygon[r.contacts] for r in results)])
     count, piece = graph.pieces
     joined, of_piece = components(count, *piece[contacts].T)
     if joined == 1:

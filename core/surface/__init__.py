@@ -6,6 +6,7 @@ Made ready for a field:
 - ``ordering``: an order of faces and vertices that the shape alone decides
 - ``diagonals``: triangles of polygons that the shape alone decides
 - ``preparation``: the caller's surface, repaired and refined, and its components
+- ``stitching``: borders on whose edges the vertices of others lie, joined
 - ``orientation``: which side of a face is outside
 - ``winding``: what lies inside of a surface, by winding numbers
 - ``contact``: where the pieces of a surface touch

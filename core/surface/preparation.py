@@ -26,6 +26,7 @@ from ..sentence import Sentence
 from .contact import Bridges, bridges
 from .ordering import Ordering
 from .orientation import turn_outwards
+from .stitching import stitched
 
 # Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
 # vertex stands for, so that the field can vary within every disc.
@@ -55,6 +56,8 @@ class WorkingMesh:
         The caller's vertex at each vertex.
     joined : (v,) int64
         The vertex that each of the caller's v vertices was joined to, itself for most.
+    stitches : (k, 2) int64
+        The caller's faces that share an edge here and none there: see ``stitched``.
     notes : tuple of Sentence
         What is odd about the caller's mesh and what was repaired, one sentence each.
     vertex_rank : (n,) int64, optional
@@ -65,6 +68,7 @@ class WorkingMesh:
     polygon: np.ndarray
     vertex_source: np.ndarray
     joined: np.ndarray
+    stitches: np.ndarray
     notes: tuple[Sentence, ...] = ()
     vertex_rank: np.ndarray | None = None
 
@@ -213,7 +217,8 @@ def repair(given: PolygonMesh) -> WorkingMesh:
     """Copy the caller's mesh without the defects that would disturb the field.
 
     The copy's coincident border vertices are joined (seams of imported files), faces with a repeated vertex are
-    dropped, fans of faces that touch in one vertex only are separated, and faces are turned outwards.
+    dropped, border edges are split where another border runs along them, fans of faces that touch in one vertex only
+    are separated, and faces are turned outwards.
 
     Parameters
     ----------
@@ -229,11 +234,17 @@ def repair(given: PolygonMesh) -> WorkingMesh:
     whole = (faces != np.roll(faces, -1, axis=1)).all(axis=1)
     # A mesh that needs no repair keeps the tables that were already computed for it.
     copy = mesh if whole.all() and not note_joined else TriMesh(mesh.vertices, faces[whole])
-    copy, vertex_source = _separate_fans(copy)
+    seams = stitched(copy)
+    polygon = given.polygon[whole]
+    stitches, polygon = distinct_pairs(*np.sort(polygon[seams.pairs], axis=1).T)[0], polygon[seams.parent]
+    stitches = stitches[stitches[:, 0] != stitches[:, 1]]
+    joined = seams.joined[joined]
+    note_stitched = _note_of_stitches(len(np.unique(stitches)))
+    copy, vertex_source = _separate_fans(seams.mesh)
     copy, note_turned = turn_outwards(copy)
-    return WorkingMesh(copy, frozen(given.polygon[whole], np.int64),
-                       frozen(vertex_source, np.int64), frozen(joined, np.int64),
-                       _notes(given) + note_joined + note_turned,
+    return WorkingMesh(copy, frozen(polygon, np.int64),
+                       frozen(vertex_source, np.int64), frozen(joined, np.int64), frozen(stitches, np.int64),
+                       _notes(given) + note_joined + note_stitched + note_turned,
                        None if given.vertex_rank is None else given.vertex_rank[vertex_source])
 
 
@@ -345,6 +356,12 @@ def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[Sentence,
         return joined, ()
     return joined, (
         Sentence("{n} coincident border {n:vertex is|vertices are} treated as joined.", n=n_joined),)
+
+
+def _note_of_stitches(n_faces: int) -> tuple[Sentence, ...]:
+    """How many of the caller's faces share an edge with another in the copy only, if there are some."""
+    return (Sentence("{n} faces whose borders run along each other, but do not meet, are treated as joined.",
+                     n=n_faces),) if n_faces else ()
 
 
 def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:

@@ -767,6 +767,8 @@ TEXTS = {
         "{asked} Teile wurden verlangt; es gibt höchstens {n}.",
     "{n} coincident border {n:vertex is|vertices are} treated as joined.":
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
+    "{n} faces whose borders run along each other, but do not meet, are treated as joined.":
+        "Flächen, deren Ränder aneinander entlanglaufen, sich aber nicht treffen: {n}; sie gelten als verbunden.",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
     "{type} is no mesh: give vertices and faces.": "{type} ist kein Mesh: nötig sind vertices und faces.",

@@ -702,6 +702,8 @@ TEXTS = {
         "{n} 个面的面积为零；它们随相邻面归类。",
     "{asked} parts were asked for; there are {n} at most.": "要求 {asked} 个部件；最多有 {n} 个。",
     "{n} coincident border {n:vertex is|vertices are} treated as joined.": "{n} 个重合的开放边顶点视为相连。",
+    "{n} faces whose borders run along each other, but do not meet, are treated as joined.":
+        "{n} 个面的边界彼此相邻但不重合，视为相连。",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "{n} 个三角形朝内或与相邻面方向相反。",
     "{type} is no mesh: give vertices and faces.": "{type} 不是网格：需要 vertices 和 faces。",

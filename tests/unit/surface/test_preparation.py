@@ -270,9 +270,35 @@ def test_seams_that_gape_within_rounding_are_joined(make):
 
 
 def test_gaps_that_one_can_see_stay_open():
+    """Every face a twentieth smaller: two thousandths of the diagonal between corners that were one."""
     shape = shapes.icosphere(2)
-    working = repaired(exploded(shape, 1e-3, np.random.default_rng(0)))
+    apart = shapes.unjoined(shape)
+    middle = np.repeat(apart.vertices.reshape(-1, 3, 3).mean(axis=1), 3, axis=0)
+    working = repaired((middle + 0.95 * (apart.vertices - middle), apart.faces))
     assert working.mesh.n_vertices == 3 * len(shape.faces)
+    assert not has_note(working, "treated as joined")
+
+
+@pytest.mark.parametrize("make", [shapes.icosphere, shapes.torus, shapes.box])
+def test_patches_that_never_met_are_one_surface(make):
+    """Eight patches, each moved by a ten-thousandth of the diagonal: more than rounding does, less than one can see."""
+    shape = make()
+    patch = ((shape.vertices[shape.faces].mean(axis=1) > 0.013) @ (1, 2, 4)).astype(int)
+    way = np.random.default_rng(1).normal(size=(8, 3))
+    way *= 1e-4 * np.linalg.norm(np.ptp(shape.vertices, axis=0)) / np.linalg.norm(way, axis=1, keepdims=True)
+    apart = shapes.unjoined(shape)
+    given = PolygonMesh.of(apart.vertices + np.repeat(way[patch], 3, axis=0), apart.faces)
+    working = repair(given)
+    assert (working.mesh.edges.n_faces == 2).all()
+    assert working.mesh.euler_characteristic == TriMesh(*shape).euler_characteristic
+    assert working.mesh.n_vertices == len(shape.vertices)
+    # All vertices at one place have one value.
+    np.testing.assert_array_equal(working.joined[working.joined], working.joined)
+    assert len(np.unique(working.joined)) == len(shape.vertices)
+    # Faces across seams touch there.
+    across = patch[working.stitches]
+    assert (across[:, 0] != across[:, 1]).all()
+    assert len(np.unique(across.min(axis=1) * 8 + across.max(axis=1))) >= 6
 
 
 def test_a_piece_as_small_as_the_gap_keeps_its_faces():
