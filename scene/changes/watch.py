@@ -53,7 +53,9 @@ def check(mesh: bpy.types.Mesh) -> None:
 def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     global _last
     deleted = depsgraph.id_type_updated("COLLECTION") or depsgraph.id_type_updated("SCENE")
-    if deleted and _is_untidy() and not bpy.app.timers.is_registered(_tidy):
+    # Link Object Data changes no collection.
+    replaced = depsgraph.id_type_updated("OBJECT") and any(graph_finding.of_other_meshes())
+    if (replaced or (deleted and _is_untidy())) and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
     elif deleted:
@@ -110,7 +112,7 @@ def _look() -> float | None:
 
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
-    return (any(graph_finding.left_behind()) or any(origins.left_behind())
+    return (any(graph_finding.left_behind()) or any(graph_finding.of_removed()) or any(origins.left_behind())
             or bool(piece_objects.hidden_for_nothing(bpy.context)))
 
 
@@ -138,6 +140,7 @@ def _tidy() -> None:
     with transaction.transaction():
         for obj in list(graph_finding.left_behind()):
             graph_removal.remove(obj)
+        graph_removal.remove_of_removed()
         for collection in list(origins.left_behind()):
             origins.forget_original(collection)
         for obj in piece_objects.hidden_for_nothing(bpy.context):

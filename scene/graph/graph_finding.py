@@ -37,9 +37,25 @@ def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
 
 
 def left_behind() -> Iterator[bpy.types.Object]:
-    """Objects that have a graph and are in no scene any more."""
-    sources = (source_of(collection) for collection in bpy.data.collections if collection.library is None)
-    return (source for source in sources if source is not None and not source.users_scene)
+    """Objects that have a graph and are in no scene any more, or got a mesh without parts."""
+    yield from (source for source in _sources() if source is not None and not source.users_scene)
+    yield from of_other_meshes()
+
+
+def of_other_meshes() -> Iterator[bpy.types.Object]:
+    """Objects that have a graph and got a mesh without parts, as by Link Object Data."""
+    return (source for source in _sources() if source is not None and not store.has_parts(source))
+
+
+def of_removed() -> Iterator[bpy.types.Collection]:
+    """Collections of graphs whose objects were removed from the file, as in the Outliner."""
+    return (collection for collection in bpy.data.collections
+            if collection.library is None and collection.get(SOURCE, collection) is None)
+
+
+def _sources() -> Iterator[bpy.types.Object | None]:
+    """The objects that graphs are of, and None for other collections."""
+    return (source_of(collection) for collection in bpy.data.collections if collection.library is None)
 
 
 def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:

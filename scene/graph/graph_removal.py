@@ -34,11 +34,22 @@ def remove_earlier(obj: bpy.types.Object, coming: Collection[str] | None) -> mad
             continue
         if collection != own:
             _remove_items(graph_finding.inside(collection), None)
-        made_objects.hand_over(collection, SOURCE, SHOWN_BEFORE)
-        # Else it is the user's now, who put something in it.
-        if all(map(transaction.is_discarded, collection.all_objects)) and not len(collection.children):
-            transaction.discard(collection)
+        _remove_collection(collection)
     return earlier
+
+
+def remove_of_removed() -> None:
+    """Remove the graphs of objects that were removed from the file."""
+    for collection in list(graph_finding.of_removed()):
+        _remove_items(graph_finding.inside(collection), None)
+        _remove_collection(collection)
+
+
+def _remove_collection(collection: bpy.types.Collection) -> None:
+    """Remove the collection of a graph that is gone; it is the user's who put something in it."""
+    made_objects.hand_over(collection, SOURCE, SHOWN_BEFORE)
+    if all(map(transaction.is_discarded, collection.all_objects)) and not len(collection.children):
+        transaction.discard(collection)
 
 
 def _remove_items(items: list[bpy.types.Object], coming: Collection[str] | None) -> made_objects.Earlier:

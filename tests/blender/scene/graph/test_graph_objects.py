@@ -5,6 +5,7 @@ import importlib
 
 import bpy
 import pytest
+import shapes
 from snapshot import activate
 
 
@@ -249,6 +250,30 @@ def test_a_graph_goes_with_its_model(package, obj, settings):
     activate(obj)
     bpy.ops.object.delete()
     assert list(graph_finding.left_behind()) == [obj]
+    watch._tidy()  # as a timer does
+    assert "Reeb Graph Tree" not in bpy.data.collections
+    assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []
+
+
+def test_a_graph_goes_with_a_model_that_is_removed_from_the_file(package, obj, settings):
+    """As in the Outliner, or by a script: nothing told any more whose it had been, and it stayed for ever."""
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
+    assert not watch._is_untidy()
+    bpy.data.objects.remove(obj)
+    assert watch._is_untidy()
+    watch._tidy()  # as a timer does
+    assert "Reeb Graph Tree" not in bpy.data.collections
+    assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []
+
+
+def test_a_graph_goes_with_the_mesh_that_it_is_of(package, make, obj, settings):
+    """Link Object Data gave the object another mesh, in which the graph stayed."""
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
+    other = make(shapes.tube_tree(), "Other")
+    obj.select_set(True)
+    bpy.ops.object.make_links_data(type="OBDATA")
+    assert obj.data == other.data
+    assert watch._is_untidy()
     watch._tidy()  # as a timer does
     assert "Reeb Graph Tree" not in bpy.data.collections
     assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []
