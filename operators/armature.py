@@ -35,7 +35,7 @@ class REEB_PARTS_OT_armature(SelectedPartsOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         rig, stiff, kept = armature.make(context, obj, stored, self.deform, self.weights)
-        report_kept(self, kept)
+        report_kept(self.tell, kept)
         other = armature.other_rig(obj)
         if other is not None:
             message = rpt_("{name} is moved by {rig}, too: the new bones lie where it is at rest")
@@ -43,5 +43,5 @@ class REEB_PARTS_OT_armature(SelectedPartsOperator, bpy.types.Operator):
         if stiff:
             message = rpt_("{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: "
                            "no neck to bend at")
-            self.report({"INFO"}, message.format(n=Count(stiff)))
+            self.tell({"INFO"}, message.format(n=Count(stiff)))
         return rpt_("{name} has {n} {n:bone|bones}").format(name=rig.name, n=Count(len(rig.data.bones)))

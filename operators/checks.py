@@ -11,7 +11,7 @@ from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.modes import set_mode
 from ..scene.pieces import origins, piece_checks, piece_objects, piece_repairs
-from ..scene.reporting import ReportingOperator, listed
+from ..scene.reporting import Report, ReportingOperator, listed
 from ..scene.showing.selection import select_faces
 
 
@@ -33,7 +33,7 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
         pieces = _chosen_pieces(context, self.report)
         piece_objects.check_pieces(pieces)
         redraw.sidebars()
-        report_unsound(self, pieces)
+        report_unsound(self.report, pieces)
 
 
 def _chosen_pieces(context: bpy.types.Context, report: Callable[[set[str], str], None]) -> list[bpy.types.Object]:
@@ -89,10 +89,10 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
             raise SceneError(rpt_("Nothing has to be repaired"))
         if all(after == before for before, after in found):
             raise SceneError(rpt_("Nothing of {name} can be repaired").format(name=listed(faulty)))
-        report_unsound(self, pieces)
+        report_unsound(self.report, pieces)
 
 
-def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object], just_made: bool = False) -> None:
+def report_unsound(report: Report, pieces: list[bpy.types.Object], just_made: bool = False) -> None:
     """Say which of some pieces that were checked are not sound; of those just made also which are as the model is."""
     wrong, as_model, turned = [], [], []
     for piece in pieces:
@@ -110,8 +110,8 @@ def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object],
         (turned, rpt_("{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: {names}")),
     ):
         if names:
-            operator.report({"WARNING"}, sentence.format(
+            report({"WARNING"}, sentence.format(
                 n=Count(len(names)), total=Count(len(pieces)), names=listed(names)))
     if not (wrong or as_model or turned):
-        operator.report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
-                                       "cross themselves}").format(n=Count(len(pieces))))
+        report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
+                              "cross themselves}").format(n=Count(len(pieces))))

@@ -146,7 +146,7 @@ class REEB_PARTS_OT_decompose(
             for index, (outcome, obj) in enumerate(done):
                 steps = writing_result(context, obj, outcome, self)
                 kept += yield from stretched(steps, index / len(done), (index + 1) / len(done))
-        report_kept(self, kept)
+        report_kept(self.report, kept)
         for outcome, obj in found:
             self._report(outcome, obj, len(found) > 1)
 

@@ -30,5 +30,5 @@ class REEB_PARTS_OT_hulls(SelectedPartsOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         made = hulls.make(context, obj, stored, self.engine, self.count)
-        report_kept(self, made.kept)
+        report_kept(self.tell, made.kept)
         return rpt_("{n} {n:hull|hulls}").format(n=Count(len(made.hulls)))

@@ -12,7 +12,15 @@ from ..scene.errors import SceneError
 from ..scene.modes import is_object_mode, object_mode, set_mode
 from ..scene.pieces import origins, piece_objects, separation
 from ..scene.properties import SEPARATE, SeparateProperties, closes_holes, fill_in
-from ..scene.reporting import ReportingOperator, chosen_with_parts, listed, report_kept, with_current_parts
+from ..scene.reporting import (
+    Report,
+    ReportingOperator,
+    chosen_with_parts,
+    listed,
+    report_kept,
+    telling_of,
+    with_current_parts,
+)
 from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.showing.selection import in_layer, select_objects
 from ..scene.stepped import SteppedOperator, is_long
@@ -64,7 +72,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             self._hide(context, [obj for obj, _ in made])
         self._show(context, every, made[0][1].pieces)
         for obj, separated in made:
-            self._report(obj, separated)
+            self._report(obj, separated, telling_of(self.report, obj, len(made) > 1))
 
     def _hide(self, context: bpy.types.Context, originals: list[bpy.types.Object]) -> None:
         """Hide the originals, which only Object Mode allows."""
@@ -81,15 +89,16 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if is_object_mode(context):
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
-    def _report(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
-        self._report_made(obj, separated)
+    def _report(self, obj: bpy.types.Object, separated: separation.Separated, tell: Report) -> None:
+        """Say what came of an object. tell : reports what does not have its name."""
+        self._report_made(obj, separated, tell)
         if self.joints != "NONE":
-            self._report_joints(separated)
+            self._report_joints(separated, tell)
         if closes_holes(self):
-            report_unsound(self, separated.pieces, just_made=True)
+            report_unsound(tell, separated.pieces, just_made=True)
         if separated.left_open:
-            self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
-                                          "{n:it|them}").format(n=Count(separated.left_open)))
+            tell({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
+                                   "{n:it|them}").format(n=Count(separated.left_open)))
         self._report_modifiers(obj, separated)
         if self.hide and (instances := piece_objects.instances(obj)):
             words = rpt_("{name} is missing from renders of instances of its collection: {names}")
@@ -99,24 +108,24 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             self.report({"WARNING"}, rpt_("{name} is missing from renders of other scenes: {names}").format(
                 name=obj.name, names=listed([scene.name for scene in scenes])))
         if separated.n_apart:
-            self.report({"WARNING"}, rpt_(
+            tell({"WARNING"}, rpt_(
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
                 "cannot be joined with them}: parts stay open there").format(n=Count(separated.n_apart)))
 
-    def _report_made(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
+    def _report_made(self, obj: bpy.types.Object, separated: separation.Separated, tell: Report) -> None:
         """Say how many pieces there are, of these how many for the bed, and what stayed as it was."""
         self.report({"INFO"}, rpt_("{name}: {n} {n:part is an object|parts are objects} now").format(
             name=obj.name, n=Count(len(separated.pieces) - separated.more)))
         if separated.more:
-            self.report({"INFO"}, rpt_("{n} more {n:piece|pieces}, so that all fit the bed").format(
+            tell({"INFO"}, rpt_("{n} more {n:piece|pieces}, so that all fit the bed").format(
                 n=Count(separated.more)))
         if separated.too_long:
-            self.report({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
+            tell({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
                 names=listed([separated.names[key] for key in separated.too_long])))
-        report_kept(self, separated.kept)
+        report_kept(tell, separated.kept)
         if separated.along_faces:
             message = rpt_("{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there")
-            self.report({"INFO"}, message.format(n=Count(separated.along_faces)))
+            tell({"INFO"}, message.format(n=Count(separated.along_faces)))
 
     def _report_modifiers(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
         """Say which modifiers shape the pieces otherwise than the whole."""
@@ -131,13 +140,13 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 "Modifiers to keep the shape").format(
                     modifiers=", ".join(separated.made_for_all), name=obj.name))
 
-    def _report_joints(self, separated: separation.Separated) -> None:
+    def _report_joints(self, separated: separation.Separated, tell: Report) -> None:
         """Say how many cuts have joints, and of which others why not."""
         cuts = separated.cuts
         if not cuts:
-            self.report({"WARNING"}, rpt_("No joints: there is no cut that could have one."))
+            tell({"WARNING"}, rpt_("No joints: there is no cut that could have one."))
             return
-        self.report({"INFO"}, rpt_("{n} of {total} {total:cut has|cuts have} joints").format(
+        tell({"INFO"}, rpt_("{n} of {total} {total:cut has|cuts have} joints").format(
             n=Count(sum(cut.count > 0 for cut in cuts)), total=Count(len(cuts))))
         for why, sentence in (
             ("ROOM", rpt_("No joint where there is no room for one with a wall around it: {cuts}")),
@@ -147,7 +156,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         ):
             names = [separated.cut_name(cut) for cut in cuts if cut.why == why]
             if names:
-                self.report({"WARNING"}, sentence.format(cuts=listed(names)))
+                tell({"WARNING"}, sentence.format(cuts=listed(names)))
 
 
 class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):

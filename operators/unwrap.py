@@ -46,9 +46,9 @@ class REEB_PARTS_OT_unwrap(SelectedPartsOperator, bpy.types.Operator):
                     "{share:.0%} of the faces within 0.3 to 3; angles {angle:.0f}° off on average").format(
             name=name, low=low, high=high, share=distortion.even, angle=degrees(distortion.angle))
         if distortion.turned:
-            self.report({"INFO"}, rpt_("{n} {n:face is|faces are} mirrored in the UV map").format(
+            self.tell({"INFO"}, rpt_("{n} {n:face is|faces are} mirrored in the UV map").format(
                 n=Count(distortion.turned)))
         if distortion.even >= _FEW_EVEN:
             return told
-        self.report({"WARNING"}, told)
+        self.tell({"WARNING"}, told)
         return None

@@ -20,6 +20,8 @@ from .result.part_list import check_parts
 from .store import Stored
 from .transaction import transaction
 
+Report = Callable[[set[str], str], None]  # what reports: the kinds that Blender asks for, and the sentence
+
 MOST_NAMES = 12  # that a report has; who needs the others finds them in the list of cuts, or by Check Parts
 
 
@@ -100,6 +102,12 @@ class SelectedPartsOperator(PartOperator):
     #: Whether what is made belongs to the mesh, so that objects that share one are a single one.
     one_per_mesh = True
 
+    _tell: Report | None = None  # of the object whose turn it is
+
+    def tell(self, kinds: set[str], message: str) -> None:
+        """Report something of the object whose turn it is, by its name where there are several."""
+        (self._tell or self.report)(kinds, message)
+
     def look(self, obj: bpy.types.Object) -> Stored:
         """The parts of an object whose turn has come; raises SceneError where it has to be left out."""
         return moved.load(obj.data)
@@ -108,20 +116,21 @@ class SelectedPartsOperator(PartOperator):
         objects = chosen_with_parts(context, self.report, self.one_per_mesh)
         with object_mode(context):
             for obj, stored in targets.usable(objects, self.look, self.report):
+                self._tell = telling_of(self.report, obj, len(objects) > 1)
                 with named(obj, len(objects) > 1):
                     message = self.work(context, obj, stored)
                 if message:
-                    self.report({"INFO"}, f"{obj.name}: {message}" if len(objects) > 1 else message)
+                    self.tell({"INFO"}, message)
 
 
-def chosen_with_parts(context: bpy.types.Context, report: Callable[[set[str], str], None],
+def chosen_with_parts(context: bpy.types.Context, report: Report,
                       one_per_mesh: bool = True) -> list[bpy.types.Object]:
     """Those of ``targets.chosen_objects`` that have parts, be these out of date."""
     return [obj for obj in targets.chosen_objects(context, report, one_per_mesh) if store.has_result(obj.data)]
 
 
 def with_current_parts(objects: list[bpy.types.Object],
-                       report: Callable[[set[str], str], None]) -> Iterator[tuple[bpy.types.Object, Stored]]:
+                       report: Report) -> Iterator[tuple[bpy.types.Object, Stored]]:
     """Yield objects with their parts, without those whose parts are out of date; see ``targets.usable``."""
     return targets.usable(objects, lambda obj: moved.load(obj.data), report)
 
@@ -133,10 +142,15 @@ def listed(names: Sequence[str]) -> str:
     return rpt_("{names} and {n} more").format(names=shown, n=more) if more > 0 else shown
 
 
-def report_kept(operator: bpy.types.Operator, n_kept: int) -> None:
+def telling_of(report: Report, obj: bpy.types.Object, several: bool) -> Report:
+    """A function that reports something of an object, with its name before it if there are several."""
+    return (lambda kinds, message: report(kinds, f"{obj.name}: {message}")) if several else report
+
+
+def report_kept(report: Report, n_kept: int) -> None:
     """Say how many objects of an earlier run were not replaced, if any."""
     if n_kept:
-        operator.report({"INFO"}, rpt_(
+        report({"INFO"}, rpt_(
             "{n} earlier {n:object that was edited or is needed by others is left as it is|objects that were edited or "
             "are needed by others are left as they are}").format(n=Count(n_kept)))
 

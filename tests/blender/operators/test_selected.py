@@ -79,6 +79,21 @@ def test_one_that_is_out_of_date_is_left_out_and_named(three, name, capfd):
         getattr(bpy.ops.reeb_parts, name)()
 
 
+def test_each_sentence_names_the_object_that_it_is_of(three, capfd):
+    """How many parts move with others, what was kept and which cuts have joints was said without."""
+    three("hulls")
+    bpy.ops.reeb_parts.hulls()
+    next(item for item in bpy.data.objects if item.name.startswith("UCX_Two_")).data.vertices[0].co.x += 0.1
+    capfd.readouterr()
+    for name, more in (("hulls", {}), ("unwrap", {}), ("armature", {}), ("separate", {"joints": "ROUND"})):
+        three(name)
+        getattr(bpy.ops.reeb_parts, name)(**more)
+    said = [line for line in capfd.readouterr().out.splitlines() if line.startswith(("Info: ", "Warning: "))]
+    for words in ("Two: 1 earlier object", "One: 2 of 2 cuts have joints", "Three: 2 of 2 cuts have joints"):
+        assert any(words in line for line in said), words
+    assert [line for line in said if not any(name in line for name in ("One", "Two", "Three"))] == []
+
+
 def test_where_one_fails_nothing_is_done_and_it_is_named(three):
     objects = three("unwrap")
     while len(objects[1].data.uv_layers) < 8:
