@@ -126,10 +126,15 @@ class REEB_PARTS_OT_decompose(
     def _reading(self, context: bpy.types.Context) -> Steps[tuple[Parameters, list[tuple[str, Shape]]]]:
         """The parameters and the shapes; raises SceneError or ReebError."""
         parameters, objects, shapes = self.parameters(), targets.chosen_objects(context, self.report), []
-        for index, obj in enumerate(objects):
+        names = [obj.name for obj in objects]
+        for index, (obj, name) in enumerate(zip(objects, names, strict=True)):
             steps = bridge.reading_shape(obj, self.hints)
-            shape = yield from stretched(steps, 0.8 * index / len(objects), 0.8 * (index + 1) / len(objects))
-            shapes.append((obj.name, shape))
+            try:
+                shape = yield from stretched(steps, 0.8 * index / len(objects), 0.8 * (index + 1) / len(objects))
+            except ReferenceError as error:  # removed by a script meanwhile, or by undo in another window
+                raise SceneError(rpt_("{name} was changed while its parts were computed. Decompose it again.").format(
+                    name=name)) from error
+            shapes.append((name, shape))
         yield 0.8
         load_core()
         return parameters, shapes
@@ -220,11 +225,20 @@ class REEB_PARTS_OT_decompose(
         self._rounds += 1
         if self._job is not None:
             self._job.poll(lambda: self._show_progress(context))
-        elif self._rounds > 2 and self.attempt(self._read_on) == {"CANCELLED"}:  # by now, the window has been drawn
-            self._stop_watching(context)
+        elif self._rounds > 2 and not self._goes_on(context):  # by now, the window has been drawn
             return False
         self._show_progress(context)
         return True
+
+    def _goes_on(self, context: bpy.types.Context) -> bool:
+        """Go on reading; False if it could not be started. Whatever is raised, the window waits for it no more."""
+        goes_on = False
+        try:
+            goes_on = self.attempt(self._read_on) != {"CANCELLED"}
+        finally:
+            if not goes_on:
+                self._stop_watching(context)
+        return goes_on
 
     def _read_on(self) -> None:
         """Go on reading until there is something to show."""

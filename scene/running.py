@@ -6,6 +6,7 @@ Blender drops them then without a word to them: their progress, their cursor and
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import bpy
@@ -28,5 +29,6 @@ def end_all() -> None:
     """End them all now, each in its own window."""
     for operator, address in reversed(_running.copy()):
         window = next((found for found in bpy.context.window_manager.windows if found.as_pointer() == address), None)
-        with bpy.context.temp_override(window=window):
+        # Blender has freed an operator of which ``modal`` has raised something.
+        with bpy.context.temp_override(window=window), suppress(ReferenceError):
             operator.cancel(bpy.context)

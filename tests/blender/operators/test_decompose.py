@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """reeb_parts.decompose and reeb_parts.clear: what is written, and what is not."""
 
+import importlib
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -272,6 +275,32 @@ def test_selected_objects_are_done_one_after_the_other(make, tree):
     for obj in (first, second):
         assert obj.data.reeb_parts.parts
         assert f"Reeb Graph {obj.name}" in bpy.data.collections
+
+
+def test_a_mesh_that_is_gone_while_it_is_read_is_told(package, obj):
+    """As by undo in another window; a traceback ended the operator."""
+    operator = importlib.import_module(f"{package}.operators.decompose").REEB_PARTS_OT_decompose
+    errors = importlib.import_module(f"{package}.scene.errors")
+    reader = SimpleNamespace(parameters=lambda: None, report=lambda *_: None, hints="NONE")
+    steps = operator._reading(reader, bpy.context)
+    next(steps)
+    bpy.data.meshes.remove(obj.data)
+    with pytest.raises(errors.SceneError, match="Tree was changed while its parts were computed"):
+        list(steps)
+
+
+def test_the_window_waits_no_more_whatever_is_raised_while_a_mesh_is_read(package):
+    """The tab went on saying that something was computed, and nothing else could be until Blender was started anew."""
+    operator = importlib.import_module(f"{package}.operators.decompose").REEB_PARTS_OT_decompose
+
+    def attempt(work):
+        raise ZeroDivisionError
+
+    ended = []
+    waiting = SimpleNamespace(attempt=attempt, _read_on=None, _stop_watching=ended.append)
+    with pytest.raises(ZeroDivisionError):
+        operator._goes_on(waiting, bpy.context)
+    assert len(ended) == 1
 
 
 def test_graph_is_made_of_empties_and_a_curve(obj):
