@@ -225,6 +225,8 @@ class REEB_PARTS_OT_decompose(
         self._rounds += 1
         if self._job is not None:
             self._job.poll(lambda: self._show_progress(context))
+        elif self._progress.cancelled:
+            self._launching.close()
         elif self._rounds > 2 and not self._goes_on(context):  # by now, the window has been drawn
             return False
         self._show_progress(context)
@@ -249,6 +251,12 @@ class REEB_PARTS_OT_decompose(
                 return
         assert self._job is not None
         self._progress = jobs.current = self._job
+
+    def interrupt(self) -> None:
+        """Undo is about to begin: what is computed beside Blender goes on, as long as the mesh stays."""
+        super().interrupt()
+        if self._job is None:
+            self._progress.cancel()
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender closes the window or opens another file, or Esc ends the writing.

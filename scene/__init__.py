@@ -45,7 +45,7 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import defaults, store
+from . import defaults, running, store
 from .changes import undo_steps, watch
 from .outputs import vertex_groups
 from .reading import fingerprints, mesh_arrays
@@ -58,9 +58,11 @@ def register() -> None:
     defaults.register()
     watch.register()
     undo_steps.register()
+    running.register()
 
 
 def unregister() -> None:
+    running.unregister()
     undo_steps.unregister()
     watch.unregister()
     defaults.unregister()

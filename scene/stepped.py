@@ -78,6 +78,12 @@ class SteppedOperator(ReportingOperator):
             return {"CANCELLED"}
         return self._go_on(context) if event.type == "TIMER" else {"RUNNING_MODAL"}
 
+    def interrupt(self) -> None:
+        """Undo is about to begin: take back what was done. The next call of ``modal`` ends it."""
+        if self._work is not None:
+            self._work.close()
+            self._progress.cancel()
+
     def cancel(self, context: bpy.types.Context) -> None:
         """Esc, or Blender closes the window: take back what was done. In another window it then begins anew."""
         assert self._work is not None
