@@ -8,6 +8,7 @@ import shapes
 from core import Parameters, decompose
 from core.mesh.grounds import find_standing
 from core.mesh.polygons import PolygonMesh
+from core.mesh.terrain import outline_area
 
 RNG = np.random.default_rng(5)
 PATCH = shapes.figure_on_ground(7.0)
@@ -100,14 +101,61 @@ def test_terrain_is_half_as_large_again_as_what_stands_there(ratio, found):
     (2, 0.38, False), (2, 0.42, True), (0.6, 0.14, False), (0.6, 0.16, True)])
 def test_what_is_no_higher_than_a_hill_is_terrain_but_beside_low_things(high, low, found):
     """A hill is 0.05 of the root of the outline, here 0.4, or a quarter of the highest thing."""
-    vertices, faces = shapes.flat_grid(160, 160, 0.05)
-    in_squares = [(np.abs(vertices - (x, 4, 0)).max(axis=1) < 0.5) for x in (3, 5)]
-    vertices[in_squares[0], 2], vertices[in_squares[1], 2] = high, low
+    vertices, faces = plain_with((high, low), (3, 5))
     stands = standing(vertices, faces)
-    high_one, low_one = (square[faces].all(axis=1) for square in in_squares)
+    high_one, low_one = ((vertices[faces][..., 2] == height).all(axis=1) for height in (high, low))
     assert stands[high_one].all()
     assert not stands.all()
     assert stands[low_one].all() == stands[low_one].any() == found
+
+
+def plain_with(height, x):
+    """A plain of 8 by 8 in which squares of 1 are raised to a height each, their middles at (x, 4)."""
+    vertices, faces = shapes.flat_grid(160, 160, 0.05)
+    for z, at_x in zip(height, x, strict=True):
+        vertices[np.abs(vertices - (at_x, 4, 0)).max(axis=1) < 0.5, 2] = z
+    return vertices, faces
+
+
+@pytest.mark.parametrize("lift", [0, 50, -50])
+def test_what_is_low_stands_on_low_ground(lift):
+    """Lower than a hill, of 0.4; with hills beside it of a fifth of its height, whose outline is wide."""
+    vertices, faces = plain_with((0.3,), (4,))
+    away = np.abs(vertices[:, :2] - 4).max(axis=1)
+    vertices[(away > 2) & (away < 3.5), 2] = 0.06
+    vertices[:, 2] += lift
+    stands = standing(vertices, faces)
+    assert not stands.all()
+    assert (vertices[faces[stands]][..., 2].max(axis=1) == lift + 0.3).all()
+
+
+@pytest.mark.parametrize(("pit", "found"), [(0.5, [0, 1, 2, 3]), (2, [0, 1, 2, 3, 4])])
+def test_what_is_in_a_pit_is_terrain_if_the_middle_is_lower_than_the_rim(pit, found):
+    """A pole of an area of 1 above the rim of a pit of 0.8 or 13."""
+    assert rising_segments((0.1, 1.5), (0.11, -0.3), (pit, -0.3), (pit + 0.01, 0), (4, 0)) == found
+
+
+@pytest.mark.parametrize("slope", [18, -18])
+def test_rough_ground_without_a_level_face_is_terrain(slope):
+    """Furrows, whose sides are turned from what is up by as much as faces may be that tell it."""
+    vertices, faces = plain_with((2,), (4,))
+    vertices[:, 2] += 0.05 * np.tan(np.radians(slope)) * (np.rint(vertices[:, 0] / 0.05) % 2)
+    stands = standing(vertices, faces)
+    np.testing.assert_array_equal(stands, vertices[faces][..., 2].max(axis=1) > 1)
+
+
+def test_the_largest_region_is_terrain_however_many_faces_it_has():
+    rings = np.linspace(0.1, 1, 10)
+    assert rising_segments(*((radius, 1) for radius in rings), (1.01, 0), (4, 0)) == list(range(11))
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.45, False), (0.55, True)])
+def test_terrain_covers_half_of_the_outline_at_one_height(share, found):
+    """A tower on terrain that has a deep rim: what faces up is everywhere, but not everywhere within a hill."""
+    tower = 0.92 - share
+    radius = 4 * np.sqrt([tower, 0.92])
+    profile = (radius[0], 2), (radius[0] + 0.001, 0), (radius[1], 0), (radius[1] + 0.001, -0.5), (4, -0.5)
+    assert standing(*mesa(*profile)[0]).all() != found
 
 
 @pytest.mark.parametrize(("kept", "found"), [(0.45, False), (0.55, True)])
@@ -141,6 +189,24 @@ def test_what_stands_on_several_feet_may_stand_on_a_thick_slab(bar, found):
     if bar:
         solid[9:21, 9:11, 8:10] = True
     assert standing(*shapes.blocks(solid)).all() != found
+
+
+@pytest.mark.parametrize(("side", "found"), [(3, True), (6, False)])
+def test_a_foot_has_three_tenths_of_the_longest_seam(side, found):
+    """An arch whose one leg is 1 wide and has a seam of 4, or 5.7 by averaged normals, beside one of 12 or 24."""
+    solid = np.zeros((30, 30, 12), bool)
+    solid[:, :, :3] = True
+    solid[9:9 + side, 9:9 + side] = True
+    solid[19, 9] = True
+    solid[9:20, 9, 8:10] = True
+    assert standing(*shapes.blocks(solid)).all() != found
+
+
+@pytest.mark.parametrize("away", [0, 1e7])
+def test_the_area_of_an_outline_is_that_of_a_polygon_of_32_sides(away):
+    angle = np.pi * np.arange(96) / 48
+    disc = np.column_stack([np.cos(angle), np.sin(angle), np.arange(96)]) + (away, 0, 0)
+    assert outline_area(disc, np.array([0.0, 0.0, 1.0])) == pytest.approx(16 * np.sin(np.pi / 16), rel=1e-6)
 
 
 def test_other_pieces_stand_there_too():
