@@ -136,3 +136,17 @@ def test_what_is_in_a_shell_is_a_hundredth_of_its_diameter_deep(depth, found):
 def test_what_is_in_a_shell_has_less_than_98_hundredths_of_its_own_hull(pressed, found):
     """A cube of which a third of what it is pressed in is missing: else the shell is the outer wall of a box."""
     assert has_ground(shapes.box((10, 10, 10)), shapes.moved(dented(1, pressed), (4, 4, 4))) == found
+
+
+@pytest.mark.parametrize(("divided", "found"), [(1, False), (2, True)])
+def test_a_shell_has_no_more_faces_than_what_is_in_it(divided, found):
+    """A ball of 320 faces around plates of 96 or 384."""
+    plates = shapes.moved(shapes.together(*PLATES), (-2, -2, 0))
+    for _ in range(divided):
+        plates = shapes.subdivide(plates)
+    assert has_ground(shapes.icosphere(2, 4.0), plates) == found
+
+
+@pytest.mark.parametrize(("more", "found"), [(0, False), (1, True)])
+def test_four_faces_stand_on_a_ground_at_least(more, found):
+    assert has_ground(sheet(6), shapes.Shape(BOX.vertices, BOX.faces[[*range(3 + more)]])) == found

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from floors import column
 
 from core import Parameters, decompose
 from core.mesh.grounds import find_standing
@@ -180,15 +181,28 @@ def test_noise_of_half_an_edge_is_averaged():
     assert (standing(vertices, slab.faces) != standing(*slab)).mean() < 0.01
 
 
-@pytest.mark.parametrize(("bar", "found"), [(False, False), (True, True)])
-def test_what_stands_on_several_feet_may_stand_on_a_thick_slab(bar, found):
-    """A table on its head does so only with a bar between its legs."""
-    solid = np.zeros((30, 30, 12), bool)
-    solid[:, :, :3] = True
-    solid[np.ix_([9, 10, 19, 20], [9, 10, 19, 20])] = True
+def slab_with_legs(size, bar):
+    """A slab of cubes on which two legs stand, one above the other, or a bar between them."""
+    solid = np.zeros((*size[:2], 12), bool)
+    solid[:, :, :size[2]] = True
+    solid[np.ix_([9, 10, 19, 20], [6, 7])] = True
     if bar:
-        solid[9:21, 9:11, 8:10] = True
-    assert standing(*shapes.blocks(solid)).all() != found
+        solid[9:21, 6:8, 8:10] = True
+    return shapes.blocks(solid)
+
+
+@pytest.mark.parametrize(("bar", "found"), [(False, False), (True, True)])
+@pytest.mark.parametrize("size", [(30, 30, 3), (44, 44, 2)], ids=["thick", "no sheet"])
+def test_what_stands_on_several_feet_may_stand_on_a_thick_slab(size, bar, found):
+    """A table on its head does so only with a bar between its legs."""
+    assert standing(*slab_with_legs(size, bar)).all() != found
+
+
+@pytest.mark.parametrize(("size", "found"), [((30, 30, 4), True), ((30, 30, 5), False),
+                                             ((60, 15, 2), True), ((60, 15, 4), False)])
+def test_a_slab_below_feet_is_a_quarter_as_deep_as_wide(size, found):
+    """By the spread of its points; and of less than 0.15 of the root of its outline."""
+    assert standing(*slab_with_legs(size, True)).all() != found
 
 
 @pytest.mark.parametrize(("side", "found"), [(3, True), (6, False)])
@@ -200,6 +214,22 @@ def test_a_foot_has_three_tenths_of_the_longest_seam(side, found):
     solid[19, 9] = True
     solid[9:20, 9, 8:10] = True
     assert standing(*shapes.blocks(solid)).all() != found
+
+
+@pytest.mark.parametrize(("height", "found"), [(0.01, True), (0.001, False)])
+def test_what_stands_on_terrain_has_a_millionth_of_its_area(height, found):
+    """A peg on 50, of 2 pi times the square of its height, and a half more."""
+    assert standing(*mesa((height, height), (1.01 * height, 0), (4, 0))[0]).all() != found
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.21, True), (0.19, False)])
+def test_terrain_is_a_fifth_of_the_area(share, found):
+    """Around a mesa, with six columns above it, each of them smaller than its piece."""
+    ground = mesa((1, 1), (1.01, 0), (4, 0))[0]
+    area = np.pi * (4**2 - 1)
+    each = (area / share - area - 3 * np.pi) / 6
+    columns = [shapes.moved(column((each - 2) / 4, 0), (x, y, 3)) for x in (-1.6, -0.5, 0.6) for y in (-1.1, 0.1)]
+    assert standing(*shapes.together(ground, *columns)).all() != found
 
 
 @pytest.mark.parametrize("away", [0, 1e7])
