@@ -60,19 +60,27 @@ def rising_faces(mesh: TriMesh) -> Iterator[tuple[np.ndarray, bool]]:
     on_feet : bool
         Whether something stands there on several feet.
     """
+    for view, side, is_thin in _views(mesh):
+        for rounds in (0, ROUNDS):
+            rising = view.rising(side * _averaged(mesh, rounds))
+            if not rising.any() or not view.is_wider_than(rising):
+                continue
+            on_feet = _stands_on_feet(mesh, rising)
+            if is_thin or on_feet:
+                yield rising, on_feet
+
+
+def _views(mesh: TriMesh) -> Iterator[tuple[View, int, bool]]:
+    """Views of a mesh in which what faces up may be terrain, the side of the faces that is outside, and what is below.
+
+    That side is 1, or -1 as the mesh may be inside out. The last says whether little is below terrain: that it is thin.
+    """
     for up in _directions(mesh):
         view = View(mesh, up)
-        for side in (1, -1):  # the mesh may be inside out
+        for side in (1, -1):
             height = view.heights_over_terrain(side * mesh.area_normals)
-            if height is None or not view.may_rise(height):
-                continue
-            thin = mesh.face_area[height < -view.hill].sum() <= BELOW * mesh.area
-            for rounds in (0, ROUNDS):
-                rising = view.rising(side * _averaged(mesh, rounds))
-                if rising.any() and view.is_wider_than(rising):
-                    on_feet = _stands_on_feet(mesh, rising)
-                    if thin or on_feet:
-                        yield rising, on_feet
+            if height is not None and view.may_rise(height):
+                yield view, side, bool(mesh.face_area[height < -view.hill].sum() <= BELOW * mesh.area)
 
 
 def _directions(mesh: TriMesh) -> list[np.ndarray]:

@@ -136,18 +136,19 @@ def _read_archive(data: bytes, names: tuple[str, ...], counts: tuple[int, int] |
             n, p = counts or (_length(archive, infos["vertex_candidates"]), _length(archive, infos["candidates"]))
             most = 8 * (PER_ELEMENT * (n + p) + AT_LEAST)
             size = {"head": MAX_HEAD, "candidates": 8 * p, "vertex_candidates": 8 * n, "field": 8 * n}
-            found = {}
-            for name in names:
-                if name in infos:
-                    # Some bytes of a header come before the values.
-                    if infos[name].file_size > size.get(name, most) + 1024:
-                        raise DamagedError
-                    with archive.open(infos[name]) as file:
-                        found[name] = np.lib.format.read_array(io.BytesIO(file.read()), allow_pickle=False)
+            found = {name: _read_array(archive, infos[name], size.get(name, most)) for name in names if name in infos}
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, KeyError, TypeError, NotImplementedError,
             RuntimeError, OverflowError, SyntaxError, MemoryError) as error:
         raise DamagedError from error
     return {name: _plain(array, name) for name, array in found.items()}
+
+
+def _read_array(archive: zipfile.ZipFile, info: zipfile.ZipInfo, most: int) -> np.ndarray:
+    """An array of an .npz file, of no more than so many bytes; raises what NumPy and zipfile do, or DamagedError."""
+    if info.file_size > most + 1024:  # some bytes of a header come before the values
+        raise DamagedError
+    with archive.open(info) as file:
+        return np.lib.format.read_array(io.BytesIO(file.read()), allow_pickle=False)
 
 
 def _length(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> int:

@@ -50,13 +50,13 @@ class SymmetryGroup:
         image = [arange(generators.shape[1])]
         known = {image[0].tobytes(): 0}
         for count in range(1, len(generators) + 1):
-            for before in image:  # grows while it is walked through
-                for then in generators[:count]:
-                    further = then[before]
-                    if known.setdefault(further.tobytes(), len(image)) == len(image):
-                        image.append(further)
-                        if len(image) > most:
-                            return None
+            # The images grow while they are walked through.
+            for further in (then[before] for before in image for then in generators[:count]):
+                if known.setdefault(further.tobytes(), len(image)) < len(image):
+                    continue
+                image.append(further)
+                if len(image) > most:
+                    return None
         composition = [[known[u[v].tobytes()] for v in image] for u in image]
         return cls(np.array(image), np.array(composition))
 
