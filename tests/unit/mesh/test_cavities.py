@@ -136,3 +136,13 @@ def test_of_bodies_within_each_other_a_wall_is_that_of_the_smallest_around():
     assert copies.n_copies == len(wall.faces)
     below = copies.polygon[copies.original[copies.is_copy]]
     assert ((below >= len(BALL.faces)) & (below < len(BALL.faces) + len(inner.faces))).all()
+
+
+def test_each_polygon_of_a_wall_has_the_part_of_the_large_one_before_it():
+    """In a bar of 12 triangles; near its ends the middle of the end is nearer than that of the side."""
+    outer = shapes.box((4.0, 1.0, 1.0))
+    wall = shapes.moved(shapes.subdivide(shapes.subdivide(shapes.subdivide(shapes.box((3.9, 0.9, 0.9))))), [0.05] * 3)
+    given = PolygonMesh.of(*shapes.together(outer, shapes.inside_out(wall)))
+    copies, normal = find_copies(given), given.triangles.face_normals
+    assert copies.polygon.tolist() == list(range(12))
+    np.testing.assert_allclose(normal[12:], -normal[copies.original[12:]], atol=1e-9)

@@ -148,9 +148,10 @@ def test_however_a_polygon_is_cut_into_triangles_it_is_the_same_one():
 
 def test_so_few_faces_that_none_may_be_left_out_stay():
     vertices, faces = shapes.box((1.0, 1.0, 1.0))
-    three = faces[:3]
-    result = decompose(vertices, np.concatenate([three, same(three)]), Parameters())
-    assert len(result.candidates) == 6
+    for count, found in ((3, False), (4, True)):
+        some = np.concatenate([faces[:count], same(faces[:count])])
+        assert (find_copies(PolygonMesh.of(vertices, some)) is not None) == found
+    assert len(decompose(vertices, np.concatenate([faces[:3], same(faces[:3])]), Parameters()).candidates) == 6
 
 
 def test_a_polygon_that_also_comes_elsewhere_is_no_copy():

@@ -6,6 +6,7 @@ import pytest
 import shapes
 from floors import collider, column, has_ground, hills, sheet, tree
 
+from core.mesh.grounds import grounds_among
 from core.mesh.polygons import PolygonMesh
 
 BOX = shapes.box((1, 1, 1))
@@ -150,3 +151,10 @@ def test_a_shell_has_no_more_faces_than_what_is_in_it(divided, found):
 @pytest.mark.parametrize(("more", "found"), [(0, False), (1, True)])
 def test_four_faces_stand_on_a_ground_at_least(more, found):
     assert has_ground(sheet(6), shapes.Shape(BOX.vertices, BOX.faces[[*range(3 + more)]])) == found
+
+
+@pytest.mark.parametrize(("is_ground", "grounds"), [
+    ([1, 1, 0, 0, 0], [True, False, False]), ([1, 1, 0, 0, 1], [True, False, True]),
+    ([1, 1, 1, 0, 1], [True, False, True]), ([1, 0, 0, 0, 0], [False] * 3), ([1] * 5, [False] * 3)])
+def test_grounds_are_parts_of_nothing_else_and_not_all_there_are(is_ground, grounds):
+    assert grounds_among(np.array([0, 0, 1, 1, 2]), np.array(is_ground, bool)).tolist() == grounds

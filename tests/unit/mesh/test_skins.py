@@ -67,6 +67,23 @@ def test_no_skin_are_an_image_a_duplicate_and_what_has_other_faces():
         assert find_copies(PolygonMesh.of(*shapes.together(FIGURE, other))) is None
 
 
+def test_a_skin_may_have_places_in_common_with_what_it_runs_along():
+    """Where the normal of a vertex is 0, an outline is where the mesh is: both would be one piece by their places."""
+    outline = skin(FIGURE, 0.02)
+    outline.vertices[7] = FIGURE.vertices[7]
+    copies = find_copies(PolygonMesh.of(*shapes.together(FIGURE, outline)))
+    n_faces = len(FIGURE.faces)
+    assert copies.polygon.tolist() == list(range(n_faces))
+    assert not copies.has_other_side.any()
+    np.testing.assert_array_equal(copies.original, np.tile(np.arange(n_faces), 2))
+
+
+@pytest.mark.parametrize(("count", "found"), [(3, False), (4, True)])
+def test_of_so_few_faces_that_none_may_be_left_out_none_are_a_skin(count, found):
+    fan = shapes.Shape(shapes.tetrahedron().vertices, shapes.tetrahedron().faces[:count])
+    assert (find_copies(PolygonMesh.of(*shapes.together(fan, skin(fan, 0.01)))) is not None) == found
+
+
 def test_pieces_without_an_extent_are_no_skins():
     """Two triangles of no area, each at one place, beside a figure with an outline."""
     points = np.repeat([(2.0, 0.0, 0.0), (2.0, 0.01, 0.0)], 3, axis=0)
