@@ -2,7 +2,7 @@
 """Mesh decomposition by the Reeb graph of the average geodesic distance (AGD); needs NumPy and SciPy only.
 
 ``decompose`` takes arrays and returns a ``Decomposition``, whose method ``parts`` reads the parts at any level of
-detail. What can be imported from the package itself is listed in ``_HOME``, below.
+detail. ``__all__`` lists what can be imported from the package itself.
 
 The stages, in the order of the method; each imports those before it only:
 

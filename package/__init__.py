@@ -8,9 +8,9 @@
 >>> result.parts(detail=0.2), result.parts(n_parts=9)  # instantly, from the same result
 >>> mesh.visual.face_colors = reeb_parts.face_colors(parts)
 
-``decompose`` takes what is a mesh, or arrays; all other names are those of ``reeb_parts.core``, which the extension for
-Blender runs as well and which has the modules of every stage. ``read_model`` reads a file. The command ``reeb-parts``
-does all of it without Python.
+``decompose`` takes what is a mesh, or arrays; ``read_model`` reads a file. But for these and ``face_colors``, the names
+are those of ``reeb_parts.core``, which the extension for Blender runs as well and which has the modules of every stage.
+The command ``reeb-parts`` does all of it without Python.
 """
 
 from importlib import import_module

@@ -60,7 +60,7 @@ def flat_grid(n_x: int, n_y: int, step: float = 1.0) -> Shape:
     """
     i, j = np.meshgrid(np.arange(n_x + 1), np.arange(n_y + 1), indexing="ij")
     vertices = step * np.stack([i.ravel(), j.ravel(), 0 * i.ravel()], axis=1).astype(float)
-    return Shape(vertices, split_quads(_grid_quads(n_x, n_y, n_y + 1)))
+    return Shape(vertices, split_quads(grid_quads(n_x, n_y, n_y + 1)))
 
 
 def flat_cells(cells) -> Shape:
@@ -362,7 +362,7 @@ def split_quads(quads: np.ndarray, vertices: np.ndarray | None = None) -> np.nda
     return np.stack([one, two], axis=1).reshape(-1, 3)
 
 
-def _grid_quads(n_x: int, n_y: int, stride: int) -> np.ndarray:
+def grid_quads(n_x: int, n_y: int, stride: int) -> np.ndarray:
     i, j = (x.ravel() for x in np.meshgrid(np.arange(n_x), np.arange(n_y), indexing="ij"))
     corner = i * stride + j
     return np.stack([corner, corner + stride, corner + stride + 1, corner + 1], axis=1)

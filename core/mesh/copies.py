@@ -159,7 +159,7 @@ def _with_same_corners(given: PolygonMesh, place: np.ndarray) -> Copies | None:
     """Polygons with the same corners as others; place : (n,) uint64, where each vertex is."""
     mesh = given.triangles
     number, backwards = hashed_polygons(given, place)
-    in_order = np.sort(number[number > 0])
+    in_order = np.sort(number)
     if not (in_order[1:] == in_order[:-1]).any():
         return None
     _, first, group, count = np.unique(number, return_index=True, return_inverse=True, return_counts=True)

@@ -135,6 +135,13 @@ def test_two_folded_faces_without_an_area_are_no_copies_of_each_other():
     assert find_copies(PolygonMesh.of(vertices, np.concatenate([faces, folded]))) is None
 
 
+def test_beside_faces_that_are_all_there_twice_folded_ones_are_no_copies_of_each_other_either():
+    vertices, faces = TREE
+    folded = np.array([(0, 1, 0), (5, 6, 5), (5, 6, 5)])
+    copies = find_copies(PolygonMesh.of(vertices, np.concatenate([faces, same(faces), folded])))
+    assert copies.polygon.tolist() == [*range(len(faces)), *range(2 * len(faces), 2 * len(faces) + 3)]
+
+
 def test_however_a_polygon_is_cut_into_triangles_it_is_the_same_one():
     vertices, quads = shapes.box_quads()
     one = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

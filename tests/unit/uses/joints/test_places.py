@@ -48,7 +48,7 @@ def cap(width=2.0, depth=2.0, n=8):
     """A rectangle at z = 0 that looks up."""
     x, y = np.meshgrid(np.linspace(-width / 2, width / 2, n + 1), np.linspace(-depth / 2, depth / 2, n + 1),
                        indexing="ij")
-    quads = shapes._grid_quads(n, n, n + 1)
+    quads = shapes.grid_quads(n, n, n + 1)
     points = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
     triangles = shapes.split_quads(quads)
     a, b, c = points[triangles[0]]
