@@ -363,6 +363,7 @@ def split_quads(quads: np.ndarray, vertices: np.ndarray | None = None) -> np.nda
 
 
 def grid_quads(n_x: int, n_y: int, stride: int) -> np.ndarray:
+    """n_x by n_y quads between vertices (i, j) of the indices i * stride + j."""
     i, j = (x.ravel() for x in np.meshgrid(np.arange(n_x), np.arange(n_y), indexing="ij"))
     corner = i * stride + j
     return np.stack([corner, corner + stride, corner + stride + 1, corner + 1], axis=1)

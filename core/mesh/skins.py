@@ -14,7 +14,7 @@ from ..arrays.hashes import hashed_sets, rehashed
 from ..arrays.int64 import arange, full
 from ..arrays.vectors import lengths, row_products
 from .pieces import Pieces, measured_polygons, nearest_polygons
-from .polygons import PolygonMesh, hashed_polygons
+from .polygons import PolygonMesh
 
 # Of the area of a skin so much is near what it is a skin of, and turned about: not farther off than the first of these,
 # in diameters of the mesh, the cosine of the angle between both normals being below the second.
@@ -83,17 +83,13 @@ def _alike(given: PolygonMesh, pieces: Pieces) -> np.ndarray:
 def _kinds(given: PolygonMesh, pieces: Pieces) -> tuple[np.ndarray, np.ndarray]:
     """A number for each piece, (count,) int64, that is the same for pieces with the same polygons.
 
-    And whether there are others of its number, (count,) bool. Of polygons it counts how many meet at their corners.
+    And whether there are others of its number, (count,) bool. Polygons are the same if as many meet at their corners.
     """
-    mesh = given.triangles
-    place = pieces.place[mesh.faces]
-    at = np.unique(given.polygon[:, None] * len(pieces.first) + place)
-    degree = np.bincount(at % len(pieces.first), minlength=len(pieces.first))
-    number, _ = hashed_polygons(given, hashed_sets(arange(mesh.n_vertices), degree[pieces.place], mesh.n_vertices))
+    n_places = len(pieces.first)
+    corner = np.unique(given.polygon[:, None] * n_places + pieces.place[given.triangles.faces])
+    polygon, place = np.divmod(corner, n_places)
+    number = hashed_sets(polygon, np.bincount(place)[place], given.n_polygons)
     total = np.zeros(pieces.count, np.uint64)
     np.add.at(total, pieces.of_polygon, rehashed(number))
-    size = np.bincount(pieces.of_polygon, minlength=pieces.count)
-    _, kind, count = np.unique(np.stack([total, size.astype(np.uint64)], axis=1), axis=0, return_inverse=True,
-                               return_counts=True)
-    kind = kind.reshape(-1)
+    _, kind, count = np.unique(total, return_inverse=True, return_counts=True)
     return kind, (count[kind] > 1) & (pieces.area > 0)

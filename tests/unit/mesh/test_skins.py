@@ -7,6 +7,7 @@ import shapes
 
 from core import decompose
 from core.mesh.copies import find_copies
+from core.mesh.pieces import Pieces
 from core.mesh.polygons import PolygonMesh
 from core.uses.correspondence import sample_surface
 from core.uses.descriptors import part_descriptors
@@ -65,6 +66,26 @@ def test_no_skin_are_an_image_a_duplicate_and_what_has_other_faces():
     for other in (mirrored, shapes.moved(FIGURE, (0.03, 0.0, 0.0)), shapes.moved(finer, (9.0, 0.0, 0.0)),
                   shapes.moved(skin(FIGURE, 0.03), (1.0, 0.0, 0.0))):
         assert find_copies(PolygonMesh.of(*shapes.together(FIGURE, other))) is None
+
+
+def test_as_many_faces_that_meet_otherwise_are_no_skin():
+    """A ball of triangles and one of rings around it, of 320 faces each."""
+    angle = np.linspace(0, np.pi, 12)
+    rings = shapes.lathe(1.03 * np.sin(angle), -1.03 * np.cos(angle), 16)
+    ball = shapes.icosphere(2)
+    assert len(rings.faces) == len(ball.faces)
+    assert find_copies(PolygonMesh.of(*shapes.together(ball, shapes.inside_out(rings)))) is None
+
+
+def test_of_three_pieces_that_are_alike_those_are_a_pair_that_are_nearest_to_each_other():
+    """A tiny figure in the large one, its middle beyond that of the skin: the skin is nearest to it."""
+    outline = skin(FIGURE, 0.02)
+    middle, its_middle = (Pieces.of(given, np.arange(given.triangles.n_vertices)).middle[0]
+                          for given in (PolygonMesh.of(*FIGURE), PolygonMesh.of(*outline)))
+    tiny = shapes.Shape(0.05 * (FIGURE.vertices - middle) + its_middle + 3 * (its_middle - middle), FIGURE.faces)
+    copies = find_copies(PolygonMesh.of(*shapes.together(FIGURE, tiny, outline)))
+    assert copies.polygon.tolist() == list(range(2 * len(FIGURE.faces)))
+    assert (copies.original[-len(FIGURE.faces):] < len(FIGURE.faces)).all()
 
 
 def test_a_skin_may_have_places_in_common_with_what_it_runs_along():
