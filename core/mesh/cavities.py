@@ -60,12 +60,11 @@ def _are_closed(corner: np.ndarray, piece: np.ndarray, count: int) -> np.ndarray
 
 
 def _smallest_around(pieces: Pieces, chosen: np.ndarray) -> np.ndarray:
-    """For each piece the smallest of the chosen ones, (count,) bool, in the box around which it is; -1 for none."""
+    """For each piece the smallest of the chosen ones, (count,) bool, in whose box it is, be it its own; -1 for none."""
     found = full(pieces.count, -1)
     for k in np.flatnonzero(chosen)[np.argsort(-pieces.diameter[chosen], kind="stable")].tolist():
         slack = OUTSIDE * pieces.diameter[k]
         inside = (pieces.low >= pieces.low[k] - slack).all(axis=1) & (pieces.high <= pieces.high[k] + slack).all(axis=1)
-        inside[k] = False
         found[inside] = k
     return found
 

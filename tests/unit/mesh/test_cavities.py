@@ -142,7 +142,28 @@ def test_each_polygon_of_a_wall_has_the_part_of_the_large_one_before_it():
     """In a bar of 12 triangles; near its ends the middle of the end is nearer than that of the side."""
     outer = shapes.box((4.0, 1.0, 1.0))
     wall = shapes.moved(shapes.subdivide(shapes.subdivide(shapes.subdivide(shapes.box((3.9, 0.9, 0.9))))), [0.05] * 3)
-    given = PolygonMesh.of(*shapes.together(outer, shapes.inside_out(wall)))
-    copies, normal = find_copies(given), given.triangles.face_normals
-    assert copies.polygon.tolist() == list(range(12))
-    np.testing.assert_allclose(normal[12:], -normal[copies.original[12:]], atol=1e-9)
+    ball = shapes.Shape(7 * BALL.vertices + (20, 0, 0), BALL.faces)  # has thirty times the area
+    its_wall = shapes.moved(shapes.icosphere(2, 6.6), (20, 0, 0))
+    given = PolygonMesh.of(*shapes.together(outer, ball, *map(shapes.inside_out, (wall, its_wall))))
+    copies, normal, n_walls = find_copies(given), given.triangles.face_normals, len(wall.faces)
+    kept = 12 + len(BALL.faces)
+    assert copies.polygon.tolist() == list(range(kept))
+    below = copies.original[kept:kept + n_walls]
+    np.testing.assert_allclose(normal[kept:kept + n_walls], -normal[below], atol=1e-9)
+
+
+def test_a_rod_through_a_hollow_body_is_not_what_its_wall_lies_in():
+    """The box around it is the smallest that holds the wall; it has 0.3 hundredths of the area."""
+    wall = shapes.icosphere(2, 0.93)
+    along = np.array([[1, 1, 1], [1, -1, 0], [1, 1, -2]]) / np.sqrt([[3], [2], [6]])
+    rod = shapes.moved(shapes.box((1.94 * 3**0.5, 0.005, 0.005)), (-0.97 * 3**0.5, 0, 0))
+    assert hollowed(wall, outer=shapes.together(BALL, shapes.Shape(rod.vertices @ along, rod.faces))) == len(wall.faces)
+
+
+def test_a_wall_of_which_four_faces_meet_at_an_edge_is_not_closed():
+    wall = shapes.icosphere(2, 0.93)
+    a, b, c = wall.faces[0]
+    n, middle = len(wall.vertices), 0.98 * wall.vertices[[a, b, c]].mean(axis=0)
+    added = [(a, b, n), (b, a, n + 1), (a, n, n + 1), (n, b, n + 1)]
+    points = np.vstack([wall.vertices, [middle, 0.99 * middle]])
+    assert hollowed(shapes.Shape(points, np.vstack([wall.faces, added]))) == 0

@@ -68,6 +68,20 @@ def test_no_skin_are_an_image_a_duplicate_and_what_has_other_faces():
         assert find_copies(PolygonMesh.of(*shapes.together(FIGURE, other))) is None
 
 
+def test_each_of_two_like_bodies_has_its_own_skin():
+    bodies = [shapes.moved(shape, (x, 0, 0)) for x in (0, 5) for shape in (FIGURE, skin(FIGURE, 0.02))]
+    copies, n_faces = find_copies(PolygonMesh.of(*shapes.together(*bodies))), len(FIGURE.faces)
+    original = copies.polygon[copies.original].reshape(4, n_faces)
+    assert (original == np.array([[0], [0], [2], [2]]) * n_faces + np.arange(n_faces)).all()
+
+
+@pytest.mark.parametrize("offset", [(50, 0, 0), (-50, 0, 0)])
+def test_the_skin_of_an_open_mesh_is_the_one_that_looks_inwards_wherever_it_is(offset):
+    half = shapes.moved(shapes.half_of(FIGURE), offset)
+    copies = find_copies(PolygonMesh.of(*shapes.together(skin(half, 0.02), half)))
+    assert copies.polygon.tolist() == list(range(len(half.faces), 2 * len(half.faces)))
+
+
 def test_as_many_faces_that_meet_otherwise_are_no_skin():
     """A ball of triangles and one of rings around it, of 320 faces each."""
     angle = np.linspace(0, np.pi, 12)
