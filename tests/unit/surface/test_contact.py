@@ -8,7 +8,7 @@ import shapes
 from core import TriMesh
 from core.arrays.components import components
 from core.surface import contact
-from core.surface.contact import FEW_LABELS, MAX_POINTS, NEAR, SLACK, SurfacePoints, bridges, diameter, near_pairs
+from core.surface.contact import FEW_LABELS, MAX_POINTS, NEAR, SurfacePoints, bridges, diameter, near_pairs
 
 
 def points_at(position):
@@ -52,7 +52,7 @@ def test_of_points_that_are_equally_near_the_first_is_linked_in_any_pose():
 
 
 def test_boxes_are_linked_where_they_come_near_or_where_all_are_to_hang_together():
-    for gap, connected, linked in ((0.01, False, True), (0.1, False, False), (0.1, True, True)):
+    for gap, connected, linked in ((0.029, False, True), (0.031, False, False), (0.1, True, True)):
         mesh = two_boxes(gap)
         found = bridges(mesh, connected)
         assert found.vertices.shape == found.faces.shape
@@ -69,10 +69,30 @@ def test_two_pieces_are_linked_as_far_as_they_are_hardly_farther_apart_than_wher
     rising = shapes.moved(shapes.Shape(flat.vertices + flat.vertices[:, :1] * (0, 0, slope), flat.faces), (0, 0, 0.1))
     mesh = TriMesh(*shapes.together(flat, rising))
     points = SurfacePoints.of(mesh, mesh.face_components[1])
-    farthest = SLACK * diameter(points.position, points.area) / slope
+    farthest = 0.005 * diameter(points.position, points.area) / slope
     along = mesh.vertices[bridges(mesh).vertices][..., 0]
     assert along.min() == 0
     assert farthest - 1 < along.max() <= farthest + 1
+
+
+def size_of(shape):
+    """The diameter of a shape."""
+    points = SurfacePoints.of(TriMesh(*shape), np.zeros(len(shape.faces), np.int64))
+    return diameter(points.position, points.area)
+
+
+@pytest.mark.parametrize(("share", "linked"), [(0.0095, True), (0.0105, False)])
+def test_what_hangs_together_by_others_is_linked_where_it_touches(share, linked):
+    """Two towers on a base, so far from each other in diameters of all three."""
+    def towers(gap):
+        return shapes.together(*(shapes.subdivide(shapes.subdivide(shapes.moved(shapes.box(size), offset)))
+                                 for size, offset in (((3, 1, 1), (0, 0, -1)), ((1.5, 1, 3), (-gap / 2, 0, 0)),
+                                                      ((1.5, 1, 3), (1.5 + gap / 2, 0, 0)))))
+
+    mesh = TriMesh(*towers(share * size_of(towers(0.04))))
+    pairs = np.sort(mesh.face_components[1][bridges(mesh).faces], axis=1)
+    expected = [[0, 1], [0, 2], [1, 2]] if linked else [[0, 1], [0, 2]]
+    assert np.unique(pairs, axis=0).tolist() == expected
 
 
 def chests(count, gap, lid=0.02):
@@ -96,12 +116,22 @@ def test_things_of_a_scene_are_linked_within_and_not_to_each_other(scale):
     assert count == 1
 
 
+@pytest.mark.parametrize(("share", "linked"), [(0.058, True), (0.062, False)])
+def test_pieces_of_a_scene_are_one_thing_if_they_are_near_beside_what_they_form(share, linked):
+    row = TriMesh(*chests(30, 0.6, share * size_of(chests(1, 0, 0.13))))
+    assert (len(bridges(row).faces) > 0) == linked
+
+
+@pytest.mark.parametrize(("thing", "is_scene"), [(shapes.octahedron(), False), (shapes.box((1.0, 1.0, 1.0)), True)])
+def test_things_of_a_scene_have_ten_faces_in_the_mean(thing, is_scene):
+    mesh = TriMesh(*shapes.together(*(shapes.moved(thing, (2.6 * k, 0, 0)) for k in range(100))))
+    assert (len(bridges(mesh).faces) == 0) == is_scene
+
+
 @pytest.mark.parametrize(("share", "is_scene"), [(0.31, True), (0.36, False)])
 def test_a_scene_has_no_thing_as_long_as_a_third_of_it(share, is_scene):
     row = chests(30, 0.4)
-    size = diameter(*(getattr(SurfacePoints.of(TriMesh(*row), np.zeros(len(row.faces), int)), name)
-                      for name in ("position", "area")))
-    plank = shapes.subdivide(shapes.subdivide(shapes.box((share * size, 0.1, 0.1))))
+    plank = shapes.subdivide(shapes.subdivide(shapes.box((share * size_of(row), 0.1, 0.1))))
     mesh = TriMesh(*shapes.together(row, shapes.moved(plank, (0, 3, 0))))
     pairs = mesh.face_components[1][bridges(mesh).faces] // 2
     assert (pairs[:, 0] == pairs[:, 1]).all() == is_scene
