@@ -77,6 +77,13 @@ def test_planes_across_each_other():
             assert (planes.image[planes.composition[u, v]] == planes.image[u][planes.image[v]]).all()
 
 
+def test_what_has_no_image_has_none_of_that_either():
+    """Faces 0 and 1 are images in one plane, 0 and 2 in the other."""
+    group = SymmetryGroup.of_planes(np.array([[1, 0, -1], [2, -1, 0]]))
+    assert group.image.tolist() == [[0, 1, 2], [1, 0, -1], [2, -1, 0], [-1, 2, -1]]
+    assert group.first_onto(np.array([False, False, True])).tolist() == [2, 3, 0]
+
+
 def test_too_large_a_group_is_none():
     vertices, faces, maps = rays(5)
     images = np.array([moved_faces(vertices, faces, linear) for linear in maps])
