@@ -20,6 +20,7 @@ from dask.system import cpu_count
 from distributed import Client, LocalCluster, as_completed
 from distributed.comm.addressing import parse_address, parse_host_port
 from distributed.comm.registry import get_backend
+from distributed.security import Security
 from distributed.system import memory_limit
 
 from ..core.errors import ReebError
@@ -31,6 +32,7 @@ from .model_process import ModelProcess
 #: however many there are.
 AHEAD = 4
 PATIENCE = 20.0  # seconds that a scheduler may take to answer
+ENCRYPTED = ("tls", "wss")
 LOOK = 5.0  # seconds between two looks at how many workers there are
 #: What a terminal sends to all processes that run in it: Ctrl+C, and that it was closed.
 OWN_SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name))
@@ -91,7 +93,7 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
     _check_address(scheduler)
     try:
         client = Client(scheduler, timeout=PATIENCE)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, ImportError) as error:
         raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
                                     reason=error)) from error
     with client:
@@ -103,12 +105,25 @@ def _check_address(address: str) -> None:
     """Raise ClusterError for what is no address of a scheduler; a client of one is left half made in this process."""
     try:
         scheme, place = parse_address(address)
-        get_backend(scheme)
+        get_backend(scheme).get_connector()
         if not scheme.startswith("ws"):  # web sockets may have a path, and no port
             parse_host_port(place)
-    except ValueError as error:
+    except (TypeError, ValueError) as error:  # the former of UCX, which is an empty class in Dask by now
         raise ClusterError(Sentence("{address} is no address of a scheduler, such as tcp://host:8786.",
                                     address=address or "An empty word")) from error
+    if not _has_certificates() and scheme in ENCRYPTED:
+        raise ClusterError(Sentence(
+            "{address} needs certificates: say in Dask's configuration, at distributed.comm.tls, where they are.",
+            address=address))
+
+
+def _has_certificates() -> bool:
+    """Whether Dask is configured with certificates; raises ClusterError if they cannot be read."""
+    try:
+        return Security().get_connection_args("client").get("ssl_context") is not None
+    except (OSError, TypeError, ValueError) as error:  # such as a file that is not there, or is no certificate
+        raise ClusterError(Sentence("The certificates in Dask's configuration could not be read: {reason}",
+                                    reason=error)) from error
 
 
 def _check_versions(client: Client) -> None:

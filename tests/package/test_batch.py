@@ -18,6 +18,7 @@ from contextlib import nullcontext, suppress
 from pathlib import Path
 from types import SimpleNamespace
 
+import dask
 import jsonschema
 import numpy as np
 import psutil
@@ -878,6 +879,16 @@ def test_what_is_no_address_of_a_scheduler_is_said(address):
     with (pytest.raises(cluster.ClusterError, match=f"^({address or 'An empty word'}) is no address of a scheduler"),
           cluster.connected(address, 1, ":0")):
         pass
+
+
+@pytest.mark.parametrize("scheme", ["tls", "wss"])
+def test_an_encrypted_connection_without_certificates_says_where_they_belong(scheme):
+    """It ended in a TypeError of Dask's, or waited for an answer."""
+    for settings, words in (({}, "at distributed.comm.tls"), ({"distributed.comm.tls.client.cert": "none.pem",
+                            "distributed.comm.tls.ca-file": "none.pem"}, "could not be read: .*No such file")):
+        with (dask.config.set(settings), pytest.raises(cluster.ClusterError, match=words),
+              cluster.connected(f"{scheme}://127.0.0.1:1", 1, ":0")):
+            pass
 
 
 def test_a_cluster_without_workers_is_said_to_have_none(request, models, tmp_path):
