@@ -101,9 +101,12 @@ class _Table:
         return self
 
     def __exit__(self, *_: object) -> None:
-        with self._file:
-            self._flush()
-            self._writer.close()
+        try:
+            with self._file:
+                self._flush()
+                self._writer.close()
+        finally:
+            self._writer.is_open = False  # or it would write on, to a closed file, when it is collected
 
 
 def read_rows(path: Path, columns: list[str] | None = None) -> Iterator[dict[str, Any]]:

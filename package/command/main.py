@@ -24,7 +24,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = commands.parse(arguments)
     commands.import_readers()
     try:
-        _hear_signals(signal.default_int_handler)
+        _hear_signals(_interrupt)
         return commands.run(options)
     except KeyboardInterrupt:
         say("Interrupted.")
@@ -33,7 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
         _hear_signals(_end)  # all is written, and what is left, such as Dask's end, need not be waited for
 
 
-def _hear_signals(heard: Callable[[int, FrameType | None], object]) -> None:
+def _hear_signals(heard: Callable[[int, FrameType | None], object] | signal.Handlers) -> None:
     """Hear Ctrl+C, the request of the system to end, and the end of the terminal."""
     signal.signal(signal.SIGTERM, heard)
     for name in ("SIGINT", "SIGHUP"):
@@ -65,7 +65,14 @@ class _Errors(io.FileIO):
         return len(data)
 
 
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    """Raise KeyboardInterrupt; what it breaks off in the middle has nothing to say when it is collected."""
+    sys.unraisablehook = lambda _: None
+    raise KeyboardInterrupt
+
+
 def _end(number: int, frame: FrameType | None) -> None:
     """End the process at once: nothing is begun, or all is done, and modules half imported may take any exception."""
+    _hear_signals(signal.SIG_IGN)  # Python cannot begin a line on standard error in the middle of another
     say("Interrupted.")
     os._exit(INTERRUPTED)

@@ -239,6 +239,36 @@ def test_ctrl_c_once_more_ends_it_at_once(name):
     assert done.stderr.splitlines() == ["reeb-parts: There is no file none.obj.", "reeb-parts: Interrupted."]
 
 
+#: The command, which gets a signal in the middle of its work, and another one while it says so.
+TWICE = """
+import signal, sys
+from reeb_parts.command import commands, main
+class Open:
+    def __del__(self):
+        raise ValueError("write to closed file")
+def run(options):
+    opened = Open()
+    signal.raise_signal(signal.SIGINT)
+def say(text, plain=main.say):
+    signal.raise_signal(signal.SIGTERM)
+    plain(text)
+if sys.argv[1] == "work":
+    commands.run = run
+else:
+    main.say = say
+    main._hear_signals(main._end)
+    signal.raise_signal(signal.SIGINT)
+sys.exit(main.main(["decompose", "none.obj"]))
+"""
+
+
+@pytest.mark.parametrize("where", ["work", "words"])
+def test_nothing_of_what_was_broken_off_is_said(where):
+    """It ended in what Python says of files that are closed when they are collected, or of a line within a line."""
+    done = subprocess.run([sys.executable, "-c", TWICE, where], capture_output=True, text=True, check=False, timeout=50)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "reeb-parts: Interrupted.\n")
+
+
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="other systems close terminals in another way")
 @pytest.mark.parametrize("kept", [False, True], ids=["closed", "nohup"])
 def test_a_terminal_that_is_closed_ends_it_unless_the_signal_is_ignored(request, model, tmp_path, kept):
