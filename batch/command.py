@@ -121,7 +121,7 @@ def _claim(options: argparse.Namespace, files: RunFiles) -> None:
         files.withdraw_on_failure(options.json)
     for path in (options.save, options.picture, options.threemf):
         if path is not None:
-            files.claim(path)
+            files.claim(path, by_blender=path != options.threemf)
     if options.parts is not None:
         files.claim_folder(options.parts)
     _check_kinds(options)

@@ -20,7 +20,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.atomic_files import HIDDEN, hidden_place, put_in_place, sync
-from ...core.file_names import kind_of
+from ...core.file_names import LONGEST_IN_BLENDER, is_too_long_for_blender, kind_of
 from ...core.options import may_be_answer
 from ..errors import SceneError
 
@@ -48,13 +48,15 @@ class RunFiles:
         for target, name in self._claimed.items():
             self._check_not_read(target, name)
 
-    def claim(self, path: Path) -> Path:
+    def claim(self, path: Path, by_blender: bool = False) -> Path:
         """Say that a file will be written; returns where it really is.
+
+        by_blender : bool, whether Blender writes it, which takes no name of any length.
 
         Raises
         ------
         SceneError
-            It is none that can be replaced, the run reads it, or it was claimed before.
+            It is none that can be replaced, the run reads it, it was claimed before, or its name is too long.
         """
         target = Path(os.path.realpath(path))
         try:
@@ -65,6 +67,9 @@ class RunFiles:
             raise SceneError(rpt_("{path} is no file but a folder or a device. Choose another name.").format(path=path))
         self._check_not_read(target, path)
         self._check_apart(target, path)
+        if by_blender:
+            _check_length(target, path)
+            _check_length(_beside(target), path)
         self._claimed[target] = path
         return target
 
@@ -153,10 +158,10 @@ class RunFiles:
         if alone:
             made = hidden_place(target)
             self._made.append(made)  # before it is there: an interruption may come between
+            _check_length(made / target.name, self._claimed[target])  # Blender's exporters write what is alone
             made.mkdir(mode=0o700)
             return made / target.name
-        # In the same folder: a scene's paths to its pictures are relative to where it is saved.
-        place = hidden_place(target, target.suffix[:20])
+        place = _beside(target)
         self._made.append(place)
         return place
 
@@ -222,6 +227,18 @@ def _identity(path: Path | int) -> set[object]:
         if stat.S_ISREG(found.st_mode) and found.st_ino:
             known.add((found.st_dev, found.st_ino))
     return known
+
+
+def _beside(target: Path) -> Path:
+    """Where to write a file: in its own folder, as a scene's paths to its pictures are relative to where it is."""
+    return hidden_place(target, target.suffix[:20])
+
+
+def _check_length(place: Path, name: Path) -> None:
+    """Raise SceneError if Blender would cut the name of a file short. name : as the user gave it."""
+    if is_too_long_for_blender(place):
+        raise SceneError(rpt_("{path} could not be written: Blender takes names of up to {n} bytes, with all folders."
+                              ).format(path=name, n=LONGEST_IN_BLENDER))
 
 
 def _unwritten(path: Path, error: Exception) -> SceneError:

@@ -1078,6 +1078,8 @@ TEXTS = {
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
     "{path} could not be written: {reason}": "{path} konnte nicht geschrieben werden: {reason}",
+    "{path} could not be written: Blender takes names of up to {n} bytes, with all folders.":
+        "{path} konnte nicht geschrieben werden: Blender nimmt Namen von bis zu {n} Bytes, mit allen Ordnern.",
     "{path} could not be written whole. Is the disk full?":
         "{path} konnte nicht vollständig geschrieben werden. Ist der Datenträger voll?",
     "{path} is no file but a folder or a device. Choose another name.":

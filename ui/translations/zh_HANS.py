@@ -949,6 +949,8 @@ TEXTS = {
     "{n} {n:hull|hulls}": "{n} 个凸壳",
     "There is no folder to write to. Choose one and try again.": "没有可写入的文件夹。请选择一个并重试。",
     "{path} could not be written: {reason}": "无法写入 {path}：{reason}",
+    "{path} could not be written: Blender takes names of up to {n} bytes, with all folders.":
+        "无法写入 {path}：Blender 的文件名连同所有文件夹最多为 {n} 字节。",
     "{path} could not be written whole. Is the disk full?": "无法完整写入 {path}。磁盘是否已满？",
     "{path} is no file but a folder or a device. Choose another name.":
         "{path} 不是文件，而是文件夹或设备。请选择另一个名称。",

@@ -400,6 +400,20 @@ def test_a_name_that_blender_would_cut_short_is_refused(run, tree, tmp_path):
 
 
 @unix
+@pytest.mark.parametrize("option", ["--save", "--picture", "--parts"])
+def test_a_place_whose_name_blender_would_cut_short_is_refused(option, run, model, tmp_path):
+    """It was said to be missing, or to be on a full disk; of pictures nothing was heard for minutes."""
+    folder = tmp_path.joinpath(*["d" * 200] * 4)
+    folder /= "x" * (1023 - len(os.fsencode(folder.resolve())) - 10)
+    folder.mkdir(parents=True)
+    name = {"--save": "longer.blend", "--picture": "longer.png", "--parts": "folder"}[option]
+    ended = run(model, option, folder / name)
+    assert (ended.status, ended.out) == (1, "")
+    assert "could not be written: Blender takes names of up to 1023 bytes, with all folders." in ended.err
+    assert list(folder.iterdir()) == []
+
+
+@unix
 def test_names_that_are_no_utf8_are_readable_in_the_answer(run, model):
     odd = Path(os.fsdecode(os.fsencode(model.parent) + b"/Stra\xdfe.json"))
     ended = run(model, model.with_name(odd.name).with_suffix(".obj"), "--json", odd)
