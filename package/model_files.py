@@ -14,6 +14,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import as_file, files
 from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 
@@ -262,6 +264,13 @@ _READERS: dict[str, _Reader] = {
     ".off": _by_bytes(parse_off), ".ply": _read_ply, ".stl": _by_bytes(parse_stl)}
 
 
+def _plain(data: bytes, kind: str) -> bytes:
+    """The bytes of a file of a kind without what trimesh would stumble over, though it does not matter."""
+    if kind == ".gltf":
+        return plain_text(data)  # without the mark with which some editors begin a file
+    return _plain_ply(data) if kind == ".ply" else data
+
+
 def _plain_ply(data: bytes) -> bytes:
     """The bytes of a .ply; if its text is not UTF-8, with question marks for all of it that is not ASCII.
 
@@ -281,11 +290,19 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices and triangles of all meshes of a file, in its order, each a polygon."""
     import trimesh
 
+    class Resolver(trimesh.resolvers.FilePathResolver):
+        """What finds the files that a file names: glTF has their names as addresses, with %20 for a space."""
+
+        def get(self, name: str) -> Any:
+            try:
+                return super().get(name)
+            except FileNotFoundError:
+                return super().get(unquote(name))
+
     # It takes names of meshes from that of the file, and not every one is UTF-8.
-    resolver = trimesh.resolvers.FilePathResolver(path)
+    resolver = Resolver(path)
     resolver.file_name = readable(path.name)
-    data = path.read_bytes()
-    with io.BytesIO(_plain_ply(data) if path.suffix.lower() == ".ply" else data) as stream, read_by("trimesh"):
+    with io.BytesIO(_plain(path.read_bytes(), path.suffix.lower())) as stream, read_by("trimesh"):
         # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
         scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
         meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]

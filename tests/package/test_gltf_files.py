@@ -83,6 +83,16 @@ def test_a_byte_order_mark_hides_no_other_file(header, tmp_path):
     assert sorted(files_of(path)) == sorted(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig"])
+def test_numbers_are_found_in_a_file_whose_name_is_written_as_an_address(encoding, header, tmp_path):
+    """Blender writes names so. They were said not to be there, as was the file itself if an editor had marked it."""
+    for number, buffer in enumerate(header["buffers"]):
+        (tmp_path / buffer["uri"]).rename(tmp_path / f"n\xfcmbers of it {number}.bin")
+        buffer["uri"] = f"n%C3%BCmbers%20of%20it%20{number}.bin"
+    (tmp_path / "model.gltf").write_text(json.dumps(header), encoding=encoding)
+    assert len(reeb_parts.read_model(tmp_path / "model.gltf").faces) == 4
+
+
 @pytest.mark.parametrize("damage", [
     {"meshes": 3}, {"accessors": []}, {"meshes": [{}]}, {"meshes": [{"primitives": [3]}]}])
 def test_a_damaged_file_is_one_sentence(damage, header, tmp_path):
