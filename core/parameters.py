@@ -88,7 +88,7 @@ def _with_warnings(values: dict) -> dict:
     for note in notes:
         warnings.warn(note, DeprecationWarning, stacklevel=3)
     for name in values:
-        if name not in Parameters.__dataclass_fields__:
+        if name not in {known.name for known in fields(Parameters)}:
             raise UnknownParameterError(Sentence("There is no parameter {name}.", name=_shown(name)), str(name))
     return values
 

@@ -193,7 +193,9 @@ def _by_place(mesh: TriMesh, of_triangle: np.ndarray, n_polygons: int, together:
     size = np.bincount(of_face)
     in_whole, in_given = inverse(ordering.vertex), arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
-    beside = _beside_another(mesh.vertices, piece, count, large) if together else np.zeros(len(large), bool)
+    used = np.flatnonzero(mesh.used)  # what has no face is no piece
+    beside = (_beside_another(mesh.vertices[used], piece[used], count, large) if together
+              else np.zeros(len(large), bool))
     for chosen, by_whole in zip(large.tolist(), beside.tolist(), strict=True):
         faces = np.flatnonzero(of_face == chosen)
         part, index = mesh.submesh(faces)

@@ -170,6 +170,8 @@ def test_a_name_that_is_no_parameter():
             make()
         assert caught.value.name == "nonsense"
         assert isinstance(caught.value, TypeError)
+    with pytest.raises(ParameterError, match="no parameter 'RANGES'"):
+        Parameters(RANGES=1)
     for name in ([], None, {}, "x" * 1000):
         with pytest.raises(ParameterError, match="no preset"):
             Parameters.preset(name)

@@ -102,6 +102,18 @@ def test_pieces_of_many_symmetries_are_sorted_by_the_whole():
         np.testing.assert_array_equal(one.triangles.faces, two.triangles.faces)
 
 
+@pytest.mark.parametrize("place", [(0.4, 0.5, 0.6), (-3.0, 50.0, 7.0), (1e200, 0.0, -1e200)])
+@pytest.mark.filterwarnings("error")
+def test_a_vertex_of_no_face_changes_nothing(place):
+    """Within the box of a piece it was another piece nearby, far away it made all others near, and then overflowed."""
+    pair = shapes.together(shapes.box(), shapes.moved(shapes.box(), (3, 0, 0)))
+    for together in (True, False):
+        _, one = sorted_by_place(PolygonMesh.of(*pair), together)
+        _, two = sorted_by_place(PolygonMesh.of(np.concatenate([pair.vertices, [place]]), pair.faces), together)
+        np.testing.assert_array_equal(two.polygon, one.polygon)
+        np.testing.assert_array_equal(two.vertex[two.vertex < len(pair.vertices)], one.vertex)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_pieces_of_whole_numbers_are_sorted_alike_at_any_size(seed):
     """Their coordinates differ in few digits, and places apart were taken for one, others at twice the size."""
