@@ -388,6 +388,34 @@ def together(*shapes: Shape) -> Shape:
                  np.concatenate([s.faces + o for s, o in zip(shapes, offsets, strict=False)]))
 
 
+def finer_in(shape: Shape, chosen: np.ndarray, rounds: int = 1) -> tuple[Shape, np.ndarray]:
+    """The chosen faces, (m,) bool, cut to four so often, the others not; and the face in which each lies, (m',)."""
+    fine, source = Shape(shape.vertices, shape.faces[chosen]), np.flatnonzero(chosen)
+    for _ in range(rounds):
+        fine, source = subdivide(fine), np.repeat(source, 4)
+    both = together(Shape(shape.vertices, shape.faces[~chosen]), fine)
+    return both, np.concatenate([np.flatnonzero(~chosen), source])
+
+
+def split_on_one_side(shape: Shape, chosen: np.ndarray) -> tuple[Shape, np.ndarray]:
+    """The chosen faces, (k,), split at the middle of an edge, their neighbors not; and the face in which each lies."""
+    a, b, c = shape.faces[chosen].T
+    middle = len(shape.vertices) + np.arange(len(chosen))
+    faces = shape.faces.copy()
+    faces[chosen] = np.stack([a, middle, c], axis=1)
+    vertices = np.concatenate([shape.vertices, (shape.vertices[a] + shape.vertices[b]) / 2])
+    return (Shape(vertices, np.concatenate([faces, np.stack([middle, b, c], axis=1)])),
+            np.concatenate([np.arange(len(shape.faces)), chosen]))
+
+
+def in_patches(shape: Shape, patch: np.ndarray, gap: float, rng: np.random.Generator) -> Shape:
+    """Every face with vertices of its own, those of each patch, (m,), moved by a share of the diagonal."""
+    way = rng.normal(size=(int(patch.max(initial=0)) + 1, 3))
+    way *= gap * np.linalg.norm(np.ptp(shape.vertices, axis=0)) / np.linalg.norm(way, axis=1, keepdims=True)
+    apart = unjoined(shape)
+    return Shape(apart.vertices + np.repeat(way[patch], 3, axis=0), apart.faces)
+
+
 def moved(shape: Shape, offset) -> Shape:
     return Shape(shape.vertices + np.asarray(offset, float), shape.faces)
 

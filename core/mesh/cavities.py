@@ -52,11 +52,15 @@ def find_cavities(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
 
 
 def _are_closed(corner: np.ndarray, piece: np.ndarray, count: int) -> np.ndarray:
-    """Which pieces have two faces at each edge, (count,) bool; corner : (m, 3) int64, places. piece : (m,) int64."""
+    """Which pieces have two faces at each edge, (count,) bool; corner : (m, 3) int64, places. piece : (m,) int64.
+
+    Where triangles of a polygon lie in several pieces, they are of one of them, and another may be left without any.
+    """
     sides = np.sort(np.stack([corner, np.roll(corner, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     keys = sides[:, 0] * (int(sides.max()) + 1) + sides[:, 1]
     _, first, n_faces = np.unique(keys, return_index=True, return_counts=True)
-    return np.bincount(np.repeat(piece, 3)[first], n_faces != 2, count) == 0
+    n_open = np.bincount(np.repeat(piece, 3)[first], n_faces != 2, count)
+    return (n_open == 0) & (np.bincount(piece, minlength=count) > 0)
 
 
 def _smallest_around(pieces: Pieces, chosen: np.ndarray) -> np.ndarray:

@@ -33,12 +33,14 @@ BOUNDS = {"n_slabs": (3, 60), "n_clusters": (2, 20), "bed": (1000.0, 5000.0)}
 
 
 def _shape(rng):
-    """A tree, now and then on a floor, or a figure that is one surface with the ground."""
+    """A tree, now and then on a floor or with borders that do not meet, or a figure on ground that is one with it."""
     if (chance := rng.random()) < 0.15:
         return shapes.figure_on_ground(5.0, step=0.35)
     tree = shapes.tube_tree(int(rng.integers(1, 5)), float(rng.choice([0.25, 0.3, 0.4])))
     floor = shapes.moved(shapes.flat_grid(4, 4, 3.0), (-6, -6, tree.vertices[:, 2].min()))
-    return shapes.together(tree, floor) if chance < 0.3 else tree
+    if chance < 0.4:
+        return shapes.split_on_one_side(tree, np.flatnonzero(rng.random(len(tree.faces)) < 0.2))[0]
+    return shapes.together(tree, floor) if chance < 0.5 else tree
 
 
 class Walk:

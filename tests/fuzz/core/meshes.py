@@ -142,6 +142,22 @@ def unjoin(vertices, faces, amount, rng):
     return vertices[faces.ravel()], np.arange(faces.size).reshape(-1, 3)
 
 
+def finer(vertices, faces, amount, rng):
+    """Faces cut to four, those beside them not: vertices within edges."""
+    return shapes.finer_in(shapes.Shape(vertices, faces), rng.random(len(faces)) < amount)[0]
+
+
+def tear(vertices, faces, amount, rng):
+    """Edges split for one of their faces."""
+    return shapes.split_on_one_side(shapes.Shape(vertices, faces), np.flatnonzero(rng.random(len(faces)) < amount))[0]
+
+
+def part(vertices, faces, amount, rng):
+    """Patches with narrow gaps between them, or wide ones."""
+    return shapes.in_patches(shapes.Shape(vertices, faces), rng.integers(0, 4, len(faces)), 10.0 ** (-6 + 4 * amount),
+                             rng)
+
+
 def shuffle(vertices, faces, amount, rng):
     place = rng.permutation(len(vertices))
     moved = np.empty_like(vertices)
@@ -179,8 +195,8 @@ def no_vertex(vertices, faces, amount, rng):
 
 
 DAMAGES = {function.__name__: function for function in (
-    drop, duplicate, flip, collapse, weld, coincide, noise, spike, squash, unused, crumb, fin, unjoin, shuffle, scale,
-    move, refine, not_a_number, no_vertex)}
+    drop, duplicate, flip, collapse, weld, coincide, noise, spike, squash, unused, crumb, fin, unjoin, finer,
+    tear, part, shuffle, scale, move, refine, not_a_number, no_vertex)}
 #: What makes a mesh that has to be refused.
 REFUSED = {"not_a_number", "no_vertex"}
 

@@ -108,7 +108,7 @@ def assert_sound(result, vertices, faces, polygon):
     assert np.isfinite(result.candidate_area).all()
     # Candidates hang together along edges; vertices at one place count as one.
     if polygon is None:  # polygons made at random may lie apart themselves
-        assert connected(result.candidates, vertices, faces)
+        assert connected(result.candidates, vertices, faces, result.contacts)
     former = None
     for n in sorted({1, 2, 3, count // 2, count - 1, count} & set(range(1, count + 1))):
         parts = result.parts(n_parts=n)
@@ -138,8 +138,8 @@ def assert_sound(result, vertices, faces, polygon):
     assert (graph.node_value[graph.arcs[:, 0]] <= graph.node_value[graph.arcs[:, 1]]).all()
 
 
-def connected(label, vertices, faces):
-    """Whether the faces of each label hang together along edges; those of no area may lie apart.
+def connected(label, vertices, faces, contacts):
+    """Whether the faces of each label hang together along edges, or by contacts; those of no area may lie apart.
 
     Vertices within GAP of each other count as one. Three corners on a line, or a speck within the rounding of
     coordinates, have an area that is rarely exactly 0.
@@ -162,7 +162,9 @@ def connected(label, vertices, faces):
     owner = np.repeat(np.arange(n), 3)
     # A face is joined to its edges, each of which counts once for each label that meets there.
     _, node = np.unique(np.stack([edge.reshape(-1), label[owner]], axis=1), axis=0, return_inverse=True)
-    _, piece = components(n + node.max() + 1, owner, n + node.reshape(-1))
+    one, other = contacts[label[contacts[:, 0]] == label[contacts[:, 1]]].T
+    _, piece = components(n + node.max() + 1, np.concatenate([owner, one]),
+                          np.concatenate([n + node.reshape(-1), other]))
     return len(np.unique(piece[:n][solid])) <= len(np.unique(label))
 
 

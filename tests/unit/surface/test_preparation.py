@@ -284,10 +284,7 @@ def test_patches_that_never_met_are_one_surface(make):
     """Eight patches, each moved by a ten-thousandth of the diagonal: more than rounding does, less than one can see."""
     shape = make()
     patch = ((shape.vertices[shape.faces].mean(axis=1) > 0.013) @ (1, 2, 4)).astype(int)
-    way = np.random.default_rng(1).normal(size=(8, 3))
-    way *= 1e-4 * np.linalg.norm(np.ptp(shape.vertices, axis=0)) / np.linalg.norm(way, axis=1, keepdims=True)
-    apart = shapes.unjoined(shape)
-    given = PolygonMesh.of(apart.vertices + np.repeat(way[patch], 3, axis=0), apart.faces)
+    given = PolygonMesh.of(*shapes.in_patches(shape, patch, 1e-4, np.random.default_rng(1)))
     working = repair(given)
     assert (working.mesh.edges.n_faces == 2).all()
     assert working.mesh.euler_characteristic == TriMesh(*shape).euler_characteristic

@@ -13,25 +13,10 @@ from core.surface.preparation import repair
 from core.surface.stitching import stitched
 
 
-def finer_in(shape, chosen, rounds=1):
-    """The chosen faces, (m,) bool, to four each, so often; and the face given in which each lies."""
-    fine, source = shapes.Shape(shape.vertices, shape.faces[chosen]), np.flatnonzero(chosen)
-    for _ in range(rounds):
-        fine, source = shapes.subdivide(fine), np.repeat(source, 4)
-    both = shapes.together(shapes.Shape(shape.vertices, shape.faces[~chosen]), fine)
-    return both, np.concatenate([np.flatnonzero(~chosen), source])
-
-
-def split_on_one_side(shape, share, seed=0):
-    """Some faces split at the middle of their first edge, their neighbors not; and the face in which each lies."""
-    chosen = np.flatnonzero(np.random.default_rng(seed).random(len(shape.faces)) < share)
-    a, b, c = shape.faces[chosen].T
-    middle = len(shape.vertices) + np.arange(len(chosen))
-    faces = shape.faces.copy()
-    faces[chosen] = np.stack([a, middle, c], axis=1)
-    return shapes.Shape(np.concatenate([shape.vertices, (shape.vertices[a] + shape.vertices[b]) / 2]),
-                        np.concatenate([faces, np.stack([middle, b, c], axis=1)])), np.concatenate(
-                            [np.arange(len(shape.faces)), chosen])
+def torn(shape, share):
+    """Some of the faces split on one side, see ``split_on_one_side``."""
+    chosen = np.random.default_rng(0).random(len(shape.faces)) < share
+    return shapes.split_on_one_side(shape, np.flatnonzero(chosen))
 
 
 def strip_beside_an_edge(ends):
@@ -52,7 +37,7 @@ def turned_alike(mesh):
     (shapes.icosphere, 1), (shapes.torus, 3), (shapes.genus_two, 1), (shapes.box, 5)])
 def test_a_surface_finer_on_one_side_is_closed_again(make, rounds):
     shape = make()
-    both, _ = finer_in(shape, shape.vertices[shape.faces].mean(axis=1) @ (0.3, 1.0, 0.2) > 0.01, rounds)
+    both, _ = shapes.finer_in(shape, shape.vertices[shape.faces].mean(axis=1) @ (0.3, 1.0, 0.2) > 0.01, rounds)
     given = PolygonMesh.of(*both)
     working = repair(given)
     assert (working.mesh.edges.n_faces == 2).all()
@@ -70,7 +55,7 @@ def test_a_surface_finer_on_one_side_is_closed_again(make, rounds):
 @pytest.mark.parametrize("share", [0.02, 0.3, 1.0])
 def test_edges_split_on_one_side_only_are_joined(share):
     shape = shapes.genus_two()
-    working = repair(PolygonMesh.of(*split_on_one_side(shape, share)[0]))
+    working = repair(PolygonMesh.of(*torn(shape, share)[0]))
     assert (working.mesh.edges.n_faces == 2).all()
     assert working.mesh.euler_characteristic == TriMesh(*shape).euler_characteristic == -2
 
@@ -137,12 +122,12 @@ def test_nothing_else_is_split(name):
     np.testing.assert_array_equal(result.parent, np.arange(mesh.n_faces))
 
 
-@pytest.mark.parametrize("torn", ["finer beyond the middle", "split on one side"])
-def test_a_tree_whose_borders_do_not_meet_has_the_parts_of_the_whole(torn):
+@pytest.mark.parametrize("borders", ["finer beyond the middle", "split on one side"])
+def test_a_tree_whose_borders_do_not_meet_has_the_parts_of_the_whole(borders):
     shape = shapes.tube_tree()
     height = shape.vertices[shape.faces].mean(axis=1)[:, 2]
-    broken, source = (finer_in(shape, height > np.median(height)) if torn == "finer beyond the middle"
-                      else split_on_one_side(shape, 0.3))
+    broken, source = (shapes.finer_in(shape, height > np.median(height)) if borders == "finer beyond the middle"
+                      else torn(shape, 0.3))
     whole, found = decompose(*shape), decompose(*broken)
     assert found.parts().count == whole.parts().count
     assert rand_index_error(whole.parts().labels[source], found.parts().labels) < 0.02
