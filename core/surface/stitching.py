@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.indexing import begins_run, place_among, renumbered, stable_order, taken
+from ..arrays.indexing import begins_run, place_among, renumbered, stable_order, sums_by, taken
 from ..arrays.int64 import arange
 from ..arrays.pairs import are_among, distinct_pairs, edge_keys
 from ..arrays.ties import rounded
@@ -34,7 +34,7 @@ class Stitched:
     Attributes
     ----------
     mesh : TriMesh
-        m' faces, and the n vertices given, of which some have no face any more.
+        m' faces, and the n vertices given, of which some have no face any more, and others were moved into a gap.
     parent : (m',) int64
         Face given in which each face lies, rising.
     joined : (n,) int64
@@ -73,7 +73,7 @@ def stitched(mesh: TriMesh) -> Stitched:
     result, parent = _split_at_ends(mesh, size, wide=False)
     joined = _across_gaps(result, size)
     if (joined != arange(mesh.n_vertices)).any():
-        result = TriMesh(mesh.vertices, joined[result.faces])
+        result = TriMesh(_midway(mesh.vertices, joined), joined[result.faces])
     result, step = _split_at_ends(result, size, wide=True)
     parent = parent[step]
     if result is mesh:
@@ -104,6 +104,18 @@ def _across_gaps(mesh: TriMesh, size: float) -> np.ndarray:
     place = np.flatnonzero(at_border)
     return joined_nearby(mesh.vertices, place, _reach(size, shortest[place]), mesh.faces.ravel(),
                          np.repeat(arange(mesh.n_faces), 3))
+
+
+def _midway(points: np.ndarray, joined: np.ndarray) -> np.ndarray:
+    """The places of vertices, (n, 3) float64, those that others were joined to midway between them.
+
+    At the place of one of them a mesh with a gap on its plane of symmetry would be symmetric no more.
+    """
+    count = np.bincount(joined, minlength=len(points))
+    several = count > 1
+    middle = points.copy()
+    middle[several] = sums_by(joined, points, len(points))[several] / count[several, None]
+    return middle
 
 
 def _split_at_ends(mesh: TriMesh, size: float, wide: bool) -> tuple[TriMesh, np.ndarray]:

@@ -119,6 +119,7 @@ def test_values_have_their_places_in_every_language(languages):
 
 # Said of several only; of one, nothing is said or something else.
 OF_SEVERAL = {
+    "{n} faces whose borders run along each other, but do not meet, are treated as joined.",
     "{n} pieces that touch, or nearly so, form one body; with Pieces: Separate each is decomposed on its own.",
     "{n} objects share this mesh; all of them show its parts.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.",

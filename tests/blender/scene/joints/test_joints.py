@@ -108,16 +108,15 @@ def test_dowels_of_an_earlier_run_go_unless_somebody_worked_on_them(make):
 def test_quads_that_are_bent_keep_no_cut_from_its_joint():
     """The booleans turn them round, which changed what a piece encloses, and so joints were said to spoil it."""
     bpy.ops.mesh.primitive_monkey_add()
-    bpy.ops.reeb_parts.decompose(n_parts=12)  # so many that most cuts are on closed parts
+    bpy.ops.reeb_parts.decompose(n_parts=16)
     obj = bpy.context.object
     largest = max(obj.data.reeb_parts.parts, key=lambda part: part.share)
     obj.data.reeb_parts.active = list(obj.data.reeb_parts.parts).index(largest)
     bpy.ops.reeb_parts.split()
     bpy.ops.reeb_parts.separate(joints="ROUND", **KEEP)
     cuts = obj.reeb_parts_made.cuts
-    # Her face is as open as her eyes, which lie in it.
-    assert {cut.why for cut in cuts if not cut.count} == {"BODY"}
-    assert len([cut for cut in cuts if cut.count]) > 20
+    assert {cut.why for cut in cuts if not cut.count} == set()
+    assert len(cuts) > 20
 
 
 def hollow_tube(thickness, n_around=48):
