@@ -53,8 +53,10 @@ def check(mesh: bpy.types.Mesh) -> None:
 def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     global _last
     deleted = depsgraph.id_type_updated("COLLECTION") or depsgraph.id_type_updated("SCENE")
-    # Link Object Data changes no collection.
-    replaced = depsgraph.id_type_updated("OBJECT") and any(graph_finding.of_other_meshes())
+    # Link Object Data changes no collection. Collections are gone through only where objects are not just moved.
+    replaced = (depsgraph.id_type_updated("OBJECT")
+                and any(update.is_updated_geometry for update in depsgraph.updates)
+                and any(graph_finding.of_other_meshes()))
     if (replaced or (deleted and _is_untidy())) and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
