@@ -9,8 +9,10 @@ from ..arrays.components import components
 from ..arrays.indexing import first_at_place
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs, repeated_in
+from ..arrays.vectors import row_products
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
+SAME_SIDE = 0.9  # cosine of the angle between two surfaces at a border from which on they are on one side of it
 NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
 
 
@@ -50,7 +52,8 @@ def joined_borders(
 
 
 def joined_nearby(
-    vertices: np.ndarray, place: np.ndarray, within: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray
+    vertices: np.ndarray, place: np.ndarray, within: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray,
+    inward: np.ndarray | None = None
 ) -> np.ndarray:
     """Find the vertex that each vertex is joined to, if some that are near each other are one.
 
@@ -65,6 +68,9 @@ def joined_nearby(
         How near another one must be to be one with each of them, and it with that one.
     corner_vertex, corner_face : (c,) int64
         As in ``joined_borders``.
+    inward : (k, 3) float64, optional
+        Unit vectors from each of ``place`` into its surface: what lies on the same side as another is not one with it,
+        as sheets that lie on each other.
 
     Returns
     -------
@@ -79,9 +85,13 @@ def joined_nearby(
     distance, near = cKDTree(vertices[place]).query(
         vertices[place], k=range(2, min(NEAREST, len(place)) + 1), distance_upper_bound=float(within.max()))
     row, column = np.nonzero(distance <= np.minimum(within[:, None], np.append(within, 0.0)[near]))
+    column = near[row, column]
+    if inward is not None:
+        apart = row_products(inward[row], inward[column]) < SAME_SIDE
+        row, column = row[apart], column[apart]
     if not len(row):
         return goal
-    count, group = components(len(place), row, near[row, column])
+    count, group = components(len(place), row, column)
     of_vertex = full(len(vertices), -1)
     of_vertex[place] = group
     corner = of_vertex[corner_vertex]

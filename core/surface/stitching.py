@@ -15,14 +15,13 @@ from ..arrays.indexing import begins_run, place_among, renumbered, stable_order,
 from ..arrays.int64 import arange
 from ..arrays.pairs import are_among, distinct_pairs, edge_keys
 from ..arrays.ties import rounded
-from ..arrays.vectors import distances_between, lengths, row_products
-from ..mesh.borders import GAP, joined_nearby
+from ..arrays.vectors import distances_between, lengths, row_products, unit
+from ..mesh.borders import GAP, SAME_SIDE, joined_nearby
 from ..mesh.triangles import TriMesh, next_side
 
 # What is still at a border is one with what is within WIDE of the diagonal, if that is no more than OF_EDGE of the
 # shortest edge there: patches that never met, as of curved surfaces, and of scans put together.
 WIDE, OF_EDGE = 6e-4, 0.2
-SAME_SIDE = 0.5  # cosine of the angle between two faces at an edge from which on they are on one side of it
 MOST_ENDS = 8  # at a vertex each border edge is compared with so many that are longer
 MOST_ROUNDS = 1_000  # an edge is split once in each
 
@@ -102,8 +101,13 @@ def _across_gaps(mesh: TriMesh, size: float) -> np.ndarray:
     shortest = np.full(mesh.n_vertices, np.inf)
     np.minimum.at(shortest, mesh.edges.vertices[near], mesh.edge_length[near][:, None])
     place = np.flatnonzero(at_border)
+    # Sheets that lie on each other have their borders near each other, too, but are on the same side of these.
+    face = np.flatnonzero(at_border[mesh.faces].any(axis=1))
+    corner = mesh.faces[face]
+    way = unit((mesh.face_centroids[face, None] - mesh.vertices[corner]).reshape(-1, 3))
+    inward = unit(sums_by(corner.ravel(), way, mesh.n_vertices)[place])
     return joined_nearby(mesh.vertices, place, _reach(size, shortest[place]), mesh.faces.ravel(),
-                         np.repeat(arange(mesh.n_faces), 3))
+                         np.repeat(arange(mesh.n_faces), 3), inward)
 
 
 def _midway(points: np.ndarray, joined: np.ndarray) -> np.ndarray:

@@ -105,6 +105,12 @@ def test_blades_as_thin_as_a_gap_stay_as_they_are():
     assert stitched(mesh).mesh is mesh
 
 
+def test_sheets_that_lie_on_each_other_stay_two():
+    plate = shapes.flat_grid(20, 20)
+    mesh = TriMesh(*shapes.together(plate, shapes.moved(plate, (0, 0, 0.01))))
+    assert stitched(mesh).mesh is mesh
+
+
 @pytest.mark.parametrize("name", ["grid", "closed", "touching in a corner", "flat face", "no face"])
 def test_nothing_else_is_split(name):
     mesh = TriMesh(*{
