@@ -20,7 +20,10 @@ import packages
 
 packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification")
 
+sys.path.append(str(packages.ROOT / "tests"))
+
 import numpy as np
+import shapes
 from meshes import load_mesh
 from scipy.spatial import cKDTree
 from tqdm import tqdm
@@ -87,13 +90,8 @@ def subdivided(mesh: TriMesh) -> TriMesh:
 
 def finer_on_one_side(mesh: TriMesh) -> TriMesh:
     """The faces beyond the middle cut into four: where they end, vertices lie within edges."""
-    import trimesh
-
     along = mesh.face_centroids @ np.array([0.3, 1.0, 0.2])
-    beyond = along > np.median(along)
-    fine = trimesh.remesh.subdivide(mesh.vertices, mesh.faces[beyond])
-    return TriMesh(np.concatenate([mesh.vertices, fine[0]]),
-                   np.concatenate([mesh.faces[~beyond], mesh.n_vertices + fine[1]]))
+    return TriMesh(*shapes.finer_in(shapes.Shape(mesh.vertices, mesh.faces), along > np.median(along))[0])
 
 
 def torn(share: float):
@@ -101,12 +99,7 @@ def torn(share: float):
 
     def change(mesh: TriMesh) -> TriMesh:
         chosen = np.flatnonzero(np.random.default_rng(SEED).random(mesh.n_faces) < share)
-        a, b, c = mesh.faces[chosen].T
-        middle = mesh.n_vertices + np.arange(len(chosen))
-        faces = mesh.faces.copy()
-        faces[chosen] = np.stack([a, middle, c], axis=1)
-        return TriMesh(np.concatenate([mesh.vertices, (mesh.vertices[a] + mesh.vertices[b]) / 2]),
-                       np.concatenate([faces, np.stack([middle, b, c], axis=1)]))
+        return TriMesh(*shapes.split_on_one_side(shapes.Shape(mesh.vertices, mesh.faces), chosen)[0])
 
     return change
 

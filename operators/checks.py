@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is wrong with separated parts: found, shown and repaired."""
 
-from collections.abc import Callable
-
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -11,8 +9,9 @@ from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.modes import set_mode
 from ..scene.pieces import origins, piece_checks, piece_objects, piece_repairs
-from ..scene.reporting import Report, ReportingOperator, listed
+from ..scene.reporting import ReportingOperator, listed
 from ..scene.showing.selection import select_faces
+from ..scene.targets import Report
 
 
 class PieceOperator(ReportingOperator):
@@ -36,7 +35,7 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
         report_unsound(self.report, pieces)
 
 
-def _chosen_pieces(context: bpy.types.Context, report: Callable[[set[str], str], None]) -> list[bpy.types.Object]:
+def _chosen_pieces(context: bpy.types.Context, report: Report) -> list[bpy.types.Object]:
     """The active one and all selected ones that can be written and are not being edited; of others it is said why."""
     pieces = [item for item in targets.active_and_selected(context) if origins.NUMBER in item]
     return [piece for piece, _ in targets.usable(pieces, targets.check_at_rest, report)]

@@ -13,7 +13,6 @@ from ..scene.modes import is_object_mode, object_mode, set_mode
 from ..scene.pieces import origins, piece_objects, separation
 from ..scene.properties import SEPARATE, SeparateProperties, closes_holes, fill_in
 from ..scene.reporting import (
-    Report,
     ReportingOperator,
     chosen_with_parts,
     listed,
@@ -24,6 +23,7 @@ from ..scene.reporting import (
 from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.showing.selection import in_layer, select_objects
 from ..scene.stepped import SteppedOperator, is_long
+from ..scene.targets import Report
 from ..viewport import shading
 from .checks import report_unsound
 

@@ -18,9 +18,8 @@ from .errors import SceneError, translated
 from .modes import object_mode
 from .result.part_list import check_parts
 from .store import Stored
+from .targets import Report
 from .transaction import transaction
-
-Report = Callable[[set[str], str], None]  # what reports: the kinds that Blender asks for, and the sentence
 
 MOST_NAMES = 12  # that a report has; who needs the others finds them in the list of cuts, or by Check Parts
 

@@ -14,11 +14,12 @@ from .errors import SceneError
 from .modes import check_mode
 from .ours.made_objects import ROLE
 
+Report = Callable[[set[str], str], None]  # what reports: the kinds that Blender asks for, and the sentence
 _Found = TypeVar("_Found")
 
 
 def chosen_objects(
-    context: bpy.types.Context, report: Callable[[set[str], str], None] | None = None, one_per_mesh: bool = True
+    context: bpy.types.Context, report: Report | None = None, one_per_mesh: bool = True
 ) -> list[bpy.types.Object]:
     """The objects to work on: the active mesh, then other selected meshes.
 
@@ -60,7 +61,7 @@ def chosen_objects(
 
 
 def usable(objects: list[bpy.types.Object], look: Callable[[bpy.types.Object], _Found],
-           report: Callable[[set[str], str], None]) -> Iterator[tuple[bpy.types.Object, _Found]]:
+           report: Report) -> Iterator[tuple[bpy.types.Object, _Found]]:
     """Yield what is found of objects, each when its turn comes, the active one first.
 
     Others of which that cannot be are left out, and it is said why.

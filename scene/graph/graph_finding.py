@@ -38,8 +38,8 @@ def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
 
 def left_behind() -> Iterator[bpy.types.Object]:
     """Objects that have a graph and are in no scene any more, or got a mesh without parts."""
-    yield from (source for source in _sources() if source is not None and not source.users_scene)
-    yield from of_other_meshes()
+    return (source for source in _sources()
+            if source is not None and not (source.users_scene and store.has_parts(source)))
 
 
 def of_other_meshes() -> Iterator[bpy.types.Object]:
