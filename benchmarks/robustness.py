@@ -104,6 +104,22 @@ def torn(share: float):
     return change
 
 
+def as_wall(hole: float, thickness: float):
+    """Opened where it is lowest, for a share of its area, and with a wall, in diagonals of its box."""
+
+    def change(mesh: TriMesh) -> tuple[TriMesh, None, np.ndarray]:
+        """The mesh; None; and for each given face one of its two images, on one side of the wall or the other."""
+        middle = mesh.face_centroids
+        near = np.argsort(np.linalg.norm(middle - middle[middle[:, 1].argmin()], axis=1), kind="stable")
+        kept = np.sort(near[np.cumsum(mesh.face_area[near]) > hole * mesh.area])
+        diagonal = np.linalg.norm(np.ptp(mesh.vertices, axis=0))
+        wall = shapes.thickened(shapes.Shape(mesh.vertices, mesh.faces[kept]), thickness * diagonal)
+        image = cKDTree(middle[kept]).query(middle)[1]
+        return TriMesh(*wall), None, np.where(np.arange(mesh.n_faces) % 2, image, len(kept) + image)
+
+    return change
+
+
 def as_quads(mesh: TriMesh) -> tuple[TriMesh, np.ndarray, np.ndarray]:
     """Triangles paired to quadrangles, flattest pairs first, and cut along the other diagonal.
 
@@ -174,6 +190,8 @@ CHANGES = {
     "finer on one side": finer_on_one_side,
     "2 % of faces split at an edge that is whole for the next": torn(0.02),
     "30 % of faces split so": torn(0.3),
+    "a wall of 0.005 with a hole of 0.002": as_wall(0.002, 0.005),
+    "a wall of 0.008 around half of it": as_wall(0.5, 0.008),
     "quads instead of triangles": as_quads,
     "bent by 45 degrees": bent(45.0),
     "bent by 90 degrees": bent(90.0),

@@ -450,6 +450,21 @@ def inside_out(shape: Shape) -> Shape:
     return Shape(shape.vertices, shape.faces[:, ::-1])
 
 
+def thickened(shape: Shape, thickness: float) -> Shape:
+    """A wall so thick below an open surface: its m faces, as many that look the other way, and a rim at its borders."""
+    vertices, faces = shape
+    corner, normal = vertices[faces], np.zeros_like(vertices)
+    np.add.at(normal, faces, np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, None])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    side = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
+    _, edge, count = np.unique(np.sort(side, axis=1), axis=0, return_inverse=True, return_counts=True)
+    start, end = side[count[edge.reshape(-1)] == 1].T
+    n = len(vertices)
+    rim = np.stack([end, start, start + n, end, start + n, end + n], axis=1).reshape(-1, 3)
+    return Shape(np.concatenate([vertices, vertices - thickness * normal]),
+                 np.concatenate([faces, faces[:, ::-1] + n, rim]))
+
+
 def unjoined(shape: Shape) -> Shape:
     """Every face with three vertices of its own, as in an STL file."""
     return Shape(shape.vertices[shape.faces.ravel()], np.arange(3 * len(shape.faces)).reshape(-1, 3))

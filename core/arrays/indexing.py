@@ -188,9 +188,13 @@ def bounds_of_each(index: np.ndarray, values: np.ndarray, count: int) -> tuple[n
     index : (n,) int64, group of each value, 0..count-1. values : (n,) or (n, k) float64. Returns (count,) or (count, k)
     float64 twice; inf and -inf for a group without values.
     """
-    low, high = np.full((count, *values.shape[1:]), np.inf), np.full((count, *values.shape[1:]), -np.inf)
-    np.minimum.at(low, index, values)
-    np.maximum.at(high, index, values)
+    shape = (count, *values.shape[1:])
+    low, high = np.full(shape, np.inf), np.full(shape, -np.inf)
+    # Column by column NumPy is some ten times as fast.
+    for least, most, value in zip(low.reshape(count, -1).T, high.reshape(count, -1).T,
+                                  values.reshape(len(values), -1).T, strict=True):
+        np.minimum.at(least, index, value)
+        np.maximum.at(most, index, value)
     return low, high
 
 

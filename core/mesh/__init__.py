@@ -11,6 +11,7 @@ Where data enters:
 - ``pieces``: what hangs together by places, and what is nearest on another piece
 - ``skins``: second skins, such as an outline
 - ``cavities``: inner walls of hollow bodies
+- ``walls``: the inner sides of thin walls around a hollow that is open
 - ``grounds``: floors, plinths and backdrops, on which the rest stands
 - ``terrain``: ground that is one surface with what stands on it, as in a scan
 - ``borders``: border vertices that are one, apart at seams only

@@ -21,6 +21,7 @@ from .pieces import Pieces, measured, nearest_polygons, nearest_vertices
 from .polygons import MIN_FACES, PolygonMesh, hashed_polygons
 from .skins import MOST_OF_MESH, find_skins
 from .triangles import TriMesh, vertex_components
+from .walls import find_walls, may_have_walls
 
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
@@ -112,21 +113,63 @@ def find_copies(given: PolygonMesh) -> Copies | None:
         None if there are none, or if too few polygons would be left.
     """
     place = hashed_rows(given.triangles.vertices)
-    return _with_same_corners(given, place) or _skins(given, place)
+    # An outline and what it is drawn around may have places in common, where a normal is 0, but no vertices.
+    return (_with_same_corners(given, place) or _skins(given, place) or _inner_sides(given, place)
+            or _skins(given, arange(given.triangles.n_vertices)))
 
 
 def _skins(given: PolygonMesh, place: np.ndarray) -> Copies | None:
-    """Second skins as copies of what they run along; place : (n,) uint64, where each vertex is."""
+    """Second skins as copies of what they run along; place : (n,) of int, equal for vertices that are taken as one."""
     mesh = given.triangles
     count, piece = mesh.vertex_components
     if count == 1 or not _may_have_skins(mesh, piece[mesh.faces[:, 0]], count):
         return None
     found = _along(given, Pieces.of(given, place))
-    if found is None:  # an outline and what it is drawn around may have places in common where a normal is 0
-        found = _along(given, Pieces.of(given, arange(mesh.n_vertices)))
-    if found is None:
+    return None if found is None else _apart(*found)
+
+
+def _inner_sides(given: PolygonMesh, place: np.ndarray) -> Copies | None:
+    """Inner sides of walls as copies of what they run along; place : (n,) uint64, where each vertex is."""
+    mesh = given.triangles
+    count, piece = mesh.vertex_components
+    if not may_have_walls(mesh, piece[mesh.faces[:, 0]], count):
         return None
-    original, home = found
+    along = find_walls(given, Pieces.of(given, place))
+    if along is None:
+        return None
+    polygon, original = given.polygon, _outer_polygons(given, along)
+    is_kept = original == arange(given.n_polygons)
+    of_copy = np.flatnonzero(~is_kept[polygon])
+    triangle = np.empty(given.n_polygons, np.int64)
+    triangle[polygon] = arange(mesh.n_faces)
+    near = np.where(is_kept[polygon[along[of_copy]]], along[of_copy], triangle[original[polygon[of_copy]]])
+    home = arange(mesh.n_vertices)
+    home[mesh.faces[of_copy]] = _nearest_corners(mesh, of_copy, near)
+    kept = mesh.faces[is_kept[polygon]]
+    home[kept] = kept
+    return _apart(original, home)
+
+
+def _outer_polygons(given: PolygonMesh, along: np.ndarray) -> np.ndarray:
+    """The polygon along which each runs, (p,) int64, of outer sides its own; along : (m,) int64, of triangles."""
+    own = arange(given.n_polygons)
+    inner = np.flatnonzero(along != arange(len(along)))
+    area, inner_area = (np.bincount(given.polygon[some], given.triangles.face_area[some], given.n_polygons)
+                        for some in (slice(None), inner))
+    is_inner, original = inner_area > 0.5 * area, own.copy()
+    original[given.polygon[inner]] = given.polygon[along[inner]]
+    return np.where(is_inner & ~is_inner[original], original, own)
+
+
+def _nearest_corners(mesh: TriMesh, face: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """The corner of another face that is nearest to each of a face, (k, 3) int64; face, other : (k,) int64."""
+    offset = mesh.vertices[mesh.faces[face]][:, :, None] - mesh.vertices[mesh.faces[other]][:, None]
+    nearest = np.linalg.norm(offset, axis=3).argmin(axis=2)
+    return np.take_along_axis(mesh.faces[other], nearest, axis=1)
+
+
+def _apart(original: np.ndarray, home: np.ndarray) -> Copies | None:
+    """The copies that run along polygons, (p,) int64, and vertices, (n,) int64; None if too few are left."""
     is_kept, vertex = original == arange(len(original)), np.flatnonzero(home == arange(len(home)))
     if is_kept.sum() < MIN_FACES:
         return None

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Walls: closed pieces that are the two sides of a thin wall around a hollow, one surface where the hollow opens.
+
+A shell that was given a thickness is such a piece, and so are cups, lampshades and hollow prints with a hole to drain.
+Everything on it is as thick as the wall, and each limb is two tubes. So the side that looks into the hollow is left out
+before anything is measured, and has the parts of the other.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays.components import components
+from ..arrays.hashes import hashed_rows
+from ..arrays.indexing import place_among
+from ..arrays.int64 import arange, full
+from ..arrays.pairs import both_ways
+from ..arrays.ties import rounded
+from ..arrays.vectors import inner_products, lengths, row_products, second_moments
+from .cavities import LEAST
+from .face_graph import FaceGraph, connect, fill_unlabeled
+from .pieces import TURN, Pieces, measured, scattered
+from .polygons import PolygonMesh
+from .triangles import TriMesh
+
+MOST_OF_MESH = 0.25  # share of the area of the mesh that is of such pieces, at least
+THICK = 0.05  # of a wall, at most, in diameters of the piece
+# Points scattered on a piece, and the share of them behind which the other side of the wall must be found before it is
+# looked for behind all faces; and points that stand for that side where its faces are large.
+FEW, MOST_OF_POINTS, MANY = 1_500, 0.8, 8_000
+OPEN = 0.01  # sum of the normals of a surface, as a share of its area, above which it has a border
+NEAREST = 3  # points of the other side that are tried for each face
+# The other side looks the other way, by the cosine of the angle between the normals; it is as far from the face as it
+# is from most, times these; and its point is not farther aside than so many spacings of points.
+FACING, AS_THICK, ASIDE = -0.8, (0.5, 1.6), 1.5
+CREASE = 0.5  # cosine of the angle of an edge that turns outwards, and may be the edge of a rim
+LEAST_PATCH = 1e-3  # share of the area of the piece below which a patch is left out
+LEAST_PULL = 1e-4  # share of a patch's area that must speak for a side
+# Share of the area of a piece that is found to be of either side, at least; of what faces the other side that may face
+# its own; of the larger side that the smaller must have; and of what the outer side encloses that the wall may fill.
+MOST, MOST_WRONG, LEAST_SIDE, FULL = 0.65, 0.03, 0.2, 0.75
+
+
+def may_have_walls(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:
+    """Whether to look for walls at all, by what hangs together by its vertices; piece : (m,) int64, of each face."""
+    area, _, volume = measured(mesh, piece, count)
+    turned = np.stack([np.bincount(piece, mesh.area_normals[:, axis], count) for axis in range(3)], axis=1)
+    is_open = lengths(turned) > OPEN * area
+    if is_open.sum() == 1:  # of several, seams may part one that is closed
+        is_open[:] = False
+    diameter = float(np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0)))
+    thin = (_thickness(area, volume) < THICK * diameter) & (area >= LEAST * mesh.area)
+    return bool(area[is_open | thin].sum() >= MOST_OF_MESH * mesh.area)
+
+
+def find_walls(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
+    """Find the sides of walls that look into the hollow, if such pieces are a good share of the mesh.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+        m triangles.
+    pieces : Pieces
+
+    Returns
+    -------
+    along : (m,) int64, or None
+        For each triangle of an inner side one of the outer side that it runs along, and of all others their own. None
+        if there are no walls.
+    """
+    whole = pieces.area.sum()
+    thin = (pieces.area >= LEAST * whole) & (_thickness(pieces.area, pieces.volume) < THICK * pieces.diameter)
+    if pieces.area[thin].sum() < MOST_OF_MESH * whole:
+        return None
+    walled, along = 0.0, arange(given.triangles.n_faces)
+    of_triangle = pieces.of_polygon[given.polygon]
+    for k in np.flatnonzero(thin).tolist():
+        face = np.flatnonzero(of_triangle == k)
+        surface, volume = _surface(given, pieces, face), float(np.abs(pieces.volume[k])) / 3
+        if _fills_its_box(surface, volume):
+            continue
+        found = _along(surface, float(pieces.diameter[k]))
+        if found is not None:
+            walled += pieces.area[k]
+            along[face] = face[found]
+    return along if walled >= MOST_OF_MESH * whole else None
+
+
+def _thickness(area: np.ndarray, volume: np.ndarray) -> np.ndarray:
+    """Mean thickness of walls from their area and what ``measured`` has as volume, three times that of a solid."""
+    return 2 / 3 * np.abs(volume) / np.maximum(area, 1e-300)
+
+
+def _surface(given: PolygonMesh, pieces: Pieces, face: np.ndarray) -> TriMesh:
+    """Some triangles of one piece, looking outwards, corners at one place being one vertex; face : (k,) int64."""
+    corner = pieces.place[given.triangles.faces[face]]
+    used = np.zeros(len(pieces.first), bool)
+    used[corner] = True
+    place = np.flatnonzero(used)
+    corner = place_among(place, len(used))[corner]
+    inverted = pieces.volume[pieces.of_place[place[0]]] < 0
+    return TriMesh(given.triangles.vertices[pieces.first[place]], corner[:, ::-1] if inverted else corner)
+
+
+def _fills_its_box(mesh: TriMesh, volume: float) -> bool:
+    """Whether a piece of some volume fills the box along its principal axes, as a board, and has no hollow."""
+    _, axes = np.linalg.eigh(second_moments(mesh.vertices - mesh.vertices.mean(axis=0), np.ones(mesh.n_vertices)))
+    return bool(volume > FULL * np.ptp(inner_products(mesh.vertices, axes.T), axis=0).prod())
+
+
+def _along(mesh: TriMesh, diameter: float) -> np.ndarray | None:
+    """For each face of a piece that is on the inner side of its wall one of the outer side, for others their own, (m,).
+
+    None if it is no wall around a hollow.
+    """
+    behind, usual = _behind(mesh, diameter)
+    if not usual:
+        return None
+    side, wrong = _sides(mesh, behind, usual)
+    area = np.bincount(side + 1, mesh.face_area, 3)[1:]
+    if area.sum() < MOST * mesh.area or wrong > MOST_WRONG or area.min() < LEAST_SIDE * area.max():
+        return None
+    _, _, volume = measured(mesh, side + 1, 3)
+    if volume[2] > volume[1]:
+        side, volume = np.where(side < 0, -1, 1 - side), volume[[0, 2, 1]]
+    whole = measured(mesh, np.zeros(mesh.n_faces, np.int64), 1)[2][0]
+    if volume[2] > 0 or whole > FULL * volume[1]:
+        return None
+    graph = FaceGraph.of(mesh)
+    is_outer = connect(graph, _filled(side, graph.pairs)) == 0
+    known = (behind >= 0) & is_outer[behind]
+    return fill_unlabeled(graph, np.where(is_outer, arange(mesh.n_faces), np.where(known, behind, -1)))
+
+
+def _behind(mesh: TriMesh, diameter: float) -> tuple[np.ndarray, float]:
+    """The face that lies behind each through the wall, (m,) int64, and how thick the wall is.
+
+    -1 where no face looks the other way at about that depth, as behind a rim; everywhere if it is so of too many.
+    """
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
+
+    every, normal = arange(mesh.n_faces), mesh.face_normals
+    order = np.argsort(hashed_rows(mesh.face_centroids), kind="stable")  # whatever the order of the faces
+
+    def depth(face: np.ndarray, start: np.ndarray, other: np.ndarray, end: np.ndarray, count: int) -> np.ndarray:
+        """How far it is from points on faces to others, of so many, against their normals; infinite if none faces."""
+        cosine, offset = row_products(normal[face], normal[other]), end - start
+        found = row_products(offset, normal[other]) / np.maximum(-cosine, 1e-9)
+        meets = (cosine < FACING) & (found > 0) & (found < THICK * diameter)
+        meets &= lengths(offset + found[:, None] * normal[face]) < ASIDE * np.sqrt(mesh.area / count)
+        return np.where(meets, found, np.inf)
+
+    # Of some points the nearest of those that look the other way.
+    its, position = scattered(mesh, order, mesh.face_area[order], FEW)
+    place, some = position / diameter, slice(None, None, 4)
+    tree = search_tree(np.concatenate([place, TURN * normal[its]], axis=1))
+    point = nearest(tree, np.concatenate([place[some], -TURN * normal[its[some]]], axis=1), NEAREST)[1].T
+    deep = np.min([depth(its[some], position[some], its[k], position[k], FEW) for k in point], axis=0)
+    if np.isfinite(deep).mean() < MOST_OF_POINTS:
+        return full(mesh.n_faces, -1), 0.0
+    usual = float(rounded(np.median(deep[np.isfinite(deep)]), 4))
+    # Of all faces the nearest to where the other side is then: by their middles, or if these are far apart, by points.
+    behind = full(mesh.n_faces, -1)
+    for its, end in ((every, mesh.face_centroids), scattered(mesh, order, mesh.face_area[order], MANY)):
+        left = np.flatnonzero(behind < 0)
+        point = nearest(search_tree(end), mesh.face_centroids[left] - usual * normal[left])[1]
+        deep = depth(left, mesh.face_centroids[left], its[point], end[point], MANY)
+        found = (deep > AS_THICK[0] * usual) & (deep < AS_THICK[1] * usual)
+        behind[left[found]] = its[point[found]]
+        if mesh.face_area[behind >= 0].sum() > MOST_OF_POINTS * mesh.area:
+            break
+    return behind, usual
+
+
+def _sides(mesh: TriMesh, behind: np.ndarray, thickness: float) -> tuple[np.ndarray, float]:
+    """Tell the two sides of a wall apart.
+
+    Patches of faces that hang together are of one side, and what lies behind them is of the other one.
+
+    behind : (m,) int64, the face of the other side that was found behind each, or -1. thickness : of the wall.
+    Returns the side of each face, (m,) int64, 0 or 1, -1 where it is not known; and the share of the faces' area
+    behind which a face of their own side lies.
+    """
+    (first, second), in_wall = mesh.edges.pairs.T, behind >= 0
+    inside = in_wall[first] & in_wall[second]
+    normal, middle = mesh.face_normals, mesh.face_centroids
+    crease = row_products(normal[first], normal[second]) < CREASE
+    crease &= row_products(middle[second] - middle[first], normal[first]) < 0
+    count, patch = components(mesh.n_faces, first[inside & ~crease], second[inside & ~crease])
+    area = np.bincount(patch[in_wall], mesh.face_area[in_wall], count)
+    large = np.flatnonzero(area > LEAST_PATCH * mesh.area)
+    if not len(large):
+        return full(mesh.n_faces, -1), 1.0
+    number = np.where(in_wall, place_among(large, count)[patch], -1)
+    face = np.flatnonzero((number >= 0) & (number[behind] >= 0))
+    facing = _between(number[face], number[behind[face]], mesh.face_area[face], len(large))
+    along = inside & crease & (number[first] >= 0) & (number[second] >= 0)
+    touching = _between(number[first[along]], number[second[along]], thickness * mesh.pair_length[along], len(large))
+    sign = _signs(area[large], touching - facing)
+    same = sign[:, None] * sign[None, :] > 0
+    side = np.append(np.where(sign == 0, -1, np.where(sign < 0, 1, 0)), -1)[number]
+    return side, float(facing[same].sum() / max(facing.sum(), 1e-300))
+
+
+def _filled(side: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+    """Let both sides spread to faces whose side is not known, whatever the order of these; as many of both: the second.
+
+    side : (m,) int64, 0, 1 or -1. pairs : (e, 2) int64, faces that touch. Returns (m,) int64, 0 or 1.
+    """
+    face, other = both_ways(pairs[(side[pairs] < 0).any(axis=1)]).T
+    sign = np.where(side < 0, 0, 1 - 2 * side)
+    while True:
+        votes = np.bincount(face, sign[other], len(side))
+        reached = (sign == 0) & (np.bincount(face, sign[other] != 0, len(side)) > 0)
+        if not reached.any():
+            return np.where(sign > 0, 0, 1)
+        sign[reached] = np.where(votes[reached] > 0, 1, -1)
+
+
+def _between(one: np.ndarray, two: np.ndarray, weight: np.ndarray, count: int) -> np.ndarray:
+    """Sums of weights of pairs, symmetric, (count, count) float64; one, two : (k,) int64. weight : (k,)."""
+    total = np.bincount(one * count + two, weight, count * count).reshape(count, count)
+    return total + total.T
+
+
+def _signs(area: np.ndarray, alike: np.ndarray) -> np.ndarray:
+    """Signs, 1 or -1, 0 for none, from what speaks for two patches having the same sign, beginning with the largest.
+
+    area : (c,) float64. alike : (c, c) float64, symmetric, negative where two have different signs. Returns (c,).
+    """
+    sign, pull, strongest, towards = np.zeros(len(area)), np.zeros(len(area)), int(area.argmax()), 1.0
+    while True:
+        sign[strongest] = towards
+        pull += towards * alike[strongest]
+        free = np.where(sign == 0, np.abs(pull), 0.0)
+        strongest = int(free.argmax())
+        if free[strongest] <= LEAST_PULL * area[strongest]:
+            return sign
+        towards = float(np.sign(pull[strongest]))
