@@ -119,6 +119,10 @@ class SteppedOperator(ReportingOperator):
             self._stop_watching(context)
             self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}
+        except ReferenceError:  # a script goes on meanwhile
+            self._stop_watching(context)
+            self.report({"ERROR"}, rpt_("What was worked on has been deleted meanwhile; nothing was made."))
+            return {"CANCELLED"}
         except BaseException:
             self._stop_watching(context)
             raise

@@ -232,6 +232,8 @@ class Transaction:
             for step in steps:
                 try:
                     step()
+                except ReferenceError:  # a script has removed it meanwhile
+                    continue
                 except Exception:
                     logging.getLogger(__name__).exception("could not be taken back")
         property_updates.restore(self._quiet)
@@ -242,7 +244,7 @@ class Transaction:
         new = [obj for obj in there if obj.mode != "OBJECT" and self.is_new(obj)]
         # Where nothing was written there is nothing to leave a mode for, and not every mode can be left.
         for obj in [*new, *([self._active] if self.inverses else [])]:
-            if obj is not None and obj.mode != "OBJECT":
+            if obj in there and obj.mode != "OBJECT":
                 self._layer.objects.active = obj
                 set_mode(obj, "OBJECT")
 
@@ -254,10 +256,13 @@ class Transaction:
     def _restore_layer(self) -> None:
         """The selection, the active object and its mode."""
         self._layer.update()  # what was hidden can be selected again
-        wanted = set(self._selected)
-        for obj in [*self._layer.objects.selected, *self._selected]:
+        there = {obj for obj in self._layer.objects if obj is not None}  # but for what a script has removed meanwhile
+        wanted = there.intersection(self._selected)
+        for obj in {*self._layer.objects.selected, *wanted} & there:
             if obj.select_get(view_layer=self._layer) != (obj in wanted):
                 obj.select_set(obj in wanted, view_layer=self._layer)
+        if self._active is not None and self._active not in there:
+            return
         self._layer.objects.active = self._active
         if self._active is not None and self._active.mode != self._mode:
             return_to(self._layer, self._active, self._mode, self._together)

@@ -927,6 +927,8 @@ TEXTS = {
     "Cancelled; nothing was changed": "Abgebrochen; nichts wurde geändert",
     "{command} was ended with its window; nothing was changed.":
         "{command} wurde mit seinem Fenster beendet; nichts wurde geändert.",
+    "What was worked on has been deleted meanwhile; nothing was made.":
+        "Woran gearbeitet wurde, ist inzwischen gelöscht worden; nichts wurde gemacht.",
     "{name} is gone; its parts were computed in vain.":
         "{name} ist nicht mehr da; seine Teile wurden vergeblich berechnet.",
     "{name} is not in this scene. Go back to its own, and decompose it again.":

@@ -828,6 +828,7 @@ TEXTS = {
     "Cancelled; nothing was changed": "已取消；未更改任何内容",
     "{command} was ended with its window; nothing was changed.":
         "{command} 已随其窗口结束；未作任何更改。",
+    "What was worked on has been deleted meanwhile; nothing was made.": "处理中的对象已被删除；未生成任何内容。",
     "{name} is gone; its parts were computed in vain.": "{name} 已不存在；其部件的计算结果未被使用。",
     "{name} is not in this scene. Go back to its own, and decompose it again.":
         "{name} 不在此场景中。请回到它所在的场景并重新分解。",
