@@ -90,16 +90,17 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         other numbers then.
     """
     from ...core.result.editing.finer_candidates import split_around
-    from ...core.result.editing.mirrored import MirroredChange, cleaned
 
     found, before, asked = stored.decomposition, stored.face_numbers, face_numbers
     if np.array_equal(asked, before):
         return asked
     mesh_tables = mesh_tables or bridge.face_graph(obj)
-    graph, touching = mesh_tables[0], mesh_tables[0].with_contacts(found.contacts)
-    face_numbers, also = pins.mirrored_too(obj.data, stored, before, asked, found.face_twin)
-    if also:
-        face_numbers = cleaned(MirroredChange(graph, touching, found.face_twin, before, asked, face_numbers))
+    touching = mesh_tables[0].with_contacts(found.contacts)
+    halves = _own_halves(stored, asked) if beside_taken else asked
+    ended = np.setdiff1d(before, asked)
+    face_numbers = _mirrored_too(obj.data, stored, halves, mesh_tables[0], touching, ended)
+    if halves is not asked and np.array_equal(face_numbers, halves):  # there is no image, as where a part is locked
+        face_numbers = _mirrored_too(obj.data, stored, asked, mesh_tables[0], touching, ended)
     if beside_taken:  # last, as a part and its image may cut off together what neither does alone
         face_numbers = _with_small_pieces(stored, touching, face_numbers, beside_taken)
     moved = face_numbers != before
@@ -114,6 +115,32 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     changed = pins.renumber_pieces(obj.data, stored, numbers, concerned)
     pins.write(context, obj.data, stored, pins.with_pins(obj.data, stored, numbers, changed))
     return face_numbers
+
+
+def _own_halves(stored: Stored, asked: np.ndarray) -> np.ndarray:
+    """A change of faces, (p,), without what the image of a part is to have of it; ``asked`` itself if that is all."""
+    from ...core.result.editing.mirrored import own_halves
+
+    found, numbered = stored.decomposition, stored.shown_parts()
+    if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
+        return asked
+    own_side = np.zeros(int(numbered.numbers.max()) + 1, np.int64)
+    own_side[numbered.numbers] = numbered.parts.side
+    halves = own_halves(stored.face_numbers, asked, found.face_twin, found.face_side, own_side)
+    return asked if np.array_equal(halves, asked) else halves
+
+
+def _mirrored_too(mesh: bpy.types.Mesh, stored: Stored, asked: np.ndarray, graph: FaceGraph,
+                  touching: FaceGraph, ended: np.ndarray) -> np.ndarray:
+    """A change of faces, (p,), and its mirror image if that is to be made.
+
+    touching : ``graph`` with contacts. ended : (k,) int64, parts of which nothing may be left.
+    """
+    from ...core.result.editing.mirrored import MirroredChange, cleaned
+
+    before, twin = stored.face_numbers, stored.decomposition.face_twin
+    both, also = pins.mirrored_too(mesh, stored, before, asked, twin, ended.tolist())
+    return cleaned(MirroredChange(graph, touching, twin, before, asked, both)) if also else both
 
 
 def _with_small_pieces(stored: Stored, touching: FaceGraph, after: np.ndarray, beside_taken: float) -> np.ndarray:

@@ -73,11 +73,13 @@ def with_pins(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarra
 
 
 def mirrored_too(
-    mesh: bpy.types.Mesh, stored: Stored, before: np.ndarray, after: np.ndarray, twin: np.ndarray
+    mesh: bpy.types.Mesh, stored: Stored, before: np.ndarray, after: np.ndarray, twin: np.ndarray,
+    ended: Iterable[int] = (),
 ) -> tuple[np.ndarray, list[int]]:
     """A change of faces or candidates, and its mirror image if the scene's Symmetry is on and no locked part changes.
 
     before, after : (n,) int64, numbers of parts. twin : (n,) int64, or empty without a plane of symmetry.
+    ended : numbers of parts of which nothing may be left.
 
     Returns the numbers after both, and those of the parts that the mirror image concerns.
     """
@@ -91,7 +93,7 @@ def mirrored_too(
         taken.append(free_number(mesh, stored, taken))
         return taken[-1]
 
-    both = on_both_sides(before, after, twin, twin_numbers(stored.shown_parts()), new)
+    both = on_both_sides(before, after, twin, twin_numbers(stored.shown_parts()), new, ended)
     extra = both != after
     concerned = np.unique(np.concatenate([before[extra], both[extra]])).tolist()
     return (after, []) if set(concerned) & set(locked_others(mesh, 0)) else (both, concerned)

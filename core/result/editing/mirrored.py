@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -176,8 +176,39 @@ def _shared(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> tuple[np
     return *pairs.T, np.bincount(index, area, len(pairs))
 
 
+def own_halves(before: np.ndarray, asked: np.ndarray, twin: np.ndarray, side: np.ndarray,
+               own_side: np.ndarray) -> np.ndarray:
+    """Leave to the image of a part what that would take itself, where the part takes faces together with their images.
+
+    A part that touches the plane of symmetry grows beyond it, and its image, which grows as well, has the better claim
+    to what lies there.
+
+    Parameters
+    ----------
+    before, asked : (p,) int64
+        Number of the part of each face before a change and after it.
+    twin : (p,) int64
+        Mirror image of each face; -1 for none.
+    side : (p,) int
+        1 or -1 for the two sides of the plane of symmetry, 0 for a face across it.
+    own_side : (k,) int
+        Side of the part of each number; 0 for a part without an image on the other side.
+
+    Returns
+    -------
+    asked : (p,) int64
+        As before where both sides would have gone to a part of the other one.
+    """
+    own = np.zeros(max(len(own_side), int(asked.max()) + 1), np.int64)
+    own[: len(own_side)] = own_side
+    taken = (asked != before) & (twin >= 0)
+    beyond = taken & taken[twin] & (asked == asked[twin]) & (side * own[asked] < 0)
+    return np.where(beyond, before, asked)
+
+
 def on_both_sides(
-    before: np.ndarray, after: np.ndarray, twin: np.ndarray, twin_number: dict[int, int], new: Callable[[], int]
+    before: np.ndarray, after: np.ndarray, twin: np.ndarray, twin_number: dict[int, int], new: Callable[[], int],
+    ended: Iterable[int] = (),
 ) -> np.ndarray:
     """Make the mirror image of a change as well.
 
@@ -191,12 +222,14 @@ def on_both_sides(
         Mirror image of each part there was; see ``twin_numbers``.
     new : callable
         Returns a number that no part has, another one each time.
+    ended : iterable of int
+        Parts of which the user wanted nothing left.
 
     Returns
     -------
     after : (n,) int64
         As given where the image of a change meets the change itself, or parts that are no images of each other, or
-        where a part would have nothing left.
+        where another part than those that ended would have nothing left.
     """
     result = after.copy()
     moved = after != before
@@ -217,6 +250,6 @@ def on_both_sides(
         there = np.flatnonzero(~moved & (twin >= 0))
         there = there[after[twin[there]] == number]
         result[there[image_of[before[twin[there]]] == before[there]]] = target
-    gone = np.setdiff1d(after, result)
+    gone = np.setdiff1d(after, [*np.unique(result), *ended])
     image_stays = np.isin([twin_number.get(number, number) for number in gone.tolist()], after)
     return after.copy() if image_stays.any() else result

@@ -330,6 +330,30 @@ def test_neighbors_do_not_crumble(make, capfd, place, rings, more):
     assert not made or f"is in {len(made)} part more: {', '.join(made)}" in said
 
 
+@pytest.mark.parametrize("action", ["grow", "slide"])
+def test_what_grows_beyond_the_plane_leaves_the_other_half_to_its_image(make, action):
+    """The part had both halves of the trunk and its image nothing, so that neither was of a side any more."""
+    mesh = make(shapes.mirrored_figure(0.25), "Figure").data
+    bpy.ops.reeb_parts.decompose()
+    names = {entry.name for entry in mesh.reeb_parts.parts}
+    choose(mesh, part_named(mesh, "Part 02.R"))
+    bpy.ops.reeb_parts.grow(rings=8) if action == "grow" else bpy.ops.reeb_parts.slide(offset=2.0)
+    assert {entry.name for entry in mesh.reeb_parts.parts} == names - {"Part 05"}  # of which nothing is left
+    assert paired(mesh)
+    assert of_both_sides(mesh)
+
+
+def test_what_grows_beyond_the_plane_stays_where_its_image_is_locked(make):
+    mesh = make(shapes.mirrored_figure(0.25), "Figure").data
+    bpy.ops.reeb_parts.decompose()
+    image, trunk = part_named(mesh, "Part 02.L"), part_named(mesh, "Part 05").number
+    image.locked, before, number = True, face_numbers(mesh), image.number
+    choose(mesh, part_named(mesh, "Part 02.R"))
+    bpy.ops.reeb_parts.grow(rings=8)
+    assert np.array_equal(face_numbers(mesh) == number, before == number)
+    assert trunk not in face_numbers(mesh)
+
+
 def test_grow_to_the_next_crease_takes_crumbs_along(make):
     """The next candidate cut a neighbor in pieces as small as can be."""
     mesh = make(shapes.insect(0.15), "Insect").data

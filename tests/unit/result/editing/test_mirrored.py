@@ -14,6 +14,7 @@ from core.result.editing.mirrored import (
     cleaned,
     gathered,
     on_both_sides,
+    own_halves,
     twin_numbers,
     without_crumbs,
 )
@@ -56,6 +57,23 @@ def test_changes(after, expected):
         given, wanted = np.array(BEFORE)[order], np.array(after)[order]
         result = on_both_sides(given, wanted, np.array(TWIN), NUMBERS, lambda new=new: next(new))
         assert result[order].tolist() == expected
+
+
+SIDE = np.array([1] * 5 + [-1] * 5)
+
+
+@pytest.mark.parametrize(("asked", "halves", "expected"), [
+    ([1, 1, 1, 1, 1, 1, 2, 2, 2, 2], [1, 1, 1, 1, 1, 3, 2, 2, 2, 2], [1, 1, 1, 1, 1, 2, 2, 2, 2, 2]),
+    ([1, 1, 1, 1, 2, 2, 2, 2, 2, 2], [1, 1, 1, 1, 3, 2, 2, 2, 2, 2], [1, 1, 1, 1, 1, 2, 2, 2, 2, 2]),
+    ([1, 1, 1, 1, 3, 1, 2, 2, 2, 2], [1, 1, 1, 1, 3, 1, 2, 2, 2, 2], [1, 1, 1, 1, 3, 1, 2, 2, 2, 2]),
+    ([1, 1, 1, 1, 4, 4, 2, 2, 2, 2], [1, 1, 1, 1, 4, 4, 2, 2, 2, 2], [1, 1, 1, 1, 4, 4, 2, 2, 2, 2])])
+def test_of_faces_and_their_images_each_side_has_its_own(asked, halves, expected):
+    """The part across the plane ends where the user has given all of it away."""
+    before, asked, twin = np.array(BEFORE), np.array(asked), np.array(TWIN)
+    found = own_halves(before, asked, twin, SIDE, np.array([0, 1, -1, 0]))
+    assert found.tolist() == halves
+    both = on_both_sides(before, found, twin, NUMBERS, lambda: 9, np.setdiff1d(before, asked).tolist())
+    assert both.tolist() == expected
 
 
 def test_what_has_no_image_changes_alone():
