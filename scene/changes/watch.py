@@ -9,6 +9,7 @@ A mesh is looked at once it has been left alone for a moment: while it is sculpt
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 
 import bmesh
 import bpy
@@ -51,7 +52,6 @@ def check(mesh: bpy.types.Mesh) -> None:
 
 @persistent
 def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    global _last
     deleted = depsgraph.id_type_updated("COLLECTION") or depsgraph.id_type_updated("SCENE")
     # Link Object Data changes no collection. Collections are gone through only where objects are not just moved.
     replaced = (depsgraph.id_type_updated("OBJECT")
@@ -68,10 +68,7 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     for obj in found:
         seen_points.evaluated(obj)
         graph_follow.soon(obj)
-    _waiting.update(obj.data.session_uid for obj in found)
-    _last = time.monotonic()
-    if not bpy.app.timers.is_registered(_look):
-        bpy.app.timers.register(_look, first_interval=REST)
+    _look_soon(obj.data for obj in found)
 
 
 def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
@@ -91,7 +88,7 @@ def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 @persistent
 def _opened(*_: object) -> None:
-    """A file was opened: where graphs are seen is not stored."""
+    """A file was opened: where graphs are seen is not stored, nor what was edited where the extension was off."""
     graph_follow.forget()
     graph_visibility.forget()
     seen_points.forget()
@@ -99,6 +96,16 @@ def _opened(*_: object) -> None:
         source = graph_finding.source_of(collection)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
             graph_follow.soon(source)
+    _look_soon(mesh for mesh in bpy.data.meshes if store.has_result(mesh))
+
+
+def _look_soon(meshes: Iterable[bpy.types.Mesh]) -> None:
+    """Look at decomposed meshes once they have been left alone for a moment."""
+    global _last
+    _waiting.update(mesh.session_uid for mesh in meshes)
+    _last = time.monotonic()
+    if _waiting and not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=REST)
 
 
 def _look() -> float | None:
