@@ -15,8 +15,9 @@ import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
-from .. import handlers, redraw, store, transaction
+from .. import handlers, redraw, store, targets, transaction
 from ..graph import graph_finding, graph_follow, graph_removal, graph_visibility
+from ..ours import orphan_outputs
 from ..pieces import origins, piece_objects
 from ..reading import fingerprints, seen_points
 from ..temporary import removed
@@ -115,8 +116,18 @@ def _look() -> float | None:
     for mesh in bpy.data.meshes:
         if mesh.session_uid in _waiting and mesh.is_editable and store.has_result(mesh):
             check(mesh)
+            if len(mesh.polygons) > mesh.reeb_parts.n_faces:
+                _settle_joined(mesh)
     _waiting.clear()
     return None
+
+
+def _settle_joined(mesh: bpy.types.Mesh) -> None:
+    """Faces may have come by Join, which leaves all objects of the mesh in Object Mode."""
+    users = targets.users(mesh)
+    if users and all(obj.mode == "OBJECT" for obj in users):
+        with transaction.transaction():
+            orphan_outputs.settle_joined(users[0])
 
 
 def _is_untidy() -> bool:

@@ -18,7 +18,7 @@ from ...core.arrays.int64 import arange
 from .. import store, targets, transaction
 from ..outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 from ..outputs.kept_aside import find_attribute, remove_attribute
-from ..reading import mesh_arrays
+from ..reading import fingerprints, mesh_arrays
 from ..result import part_names
 from ..showing import hidden
 
@@ -61,6 +61,41 @@ def remove(obj: bpy.types.Object) -> bool:
         remove_attribute(mesh, name)
     mesh.update()
     return True
+
+
+def settle_joined(obj: bpy.types.Object) -> None:
+    """Remove what of ours came with the faces that Join has brought to a mesh with a result; Object Mode.
+
+    Until the mesh is edited, they are known by their places; from then on the numbers of parts on them, which are those
+    of another list, would be taken for the mesh's own.
+    """
+    mesh = obj.data
+    written = face_attribute.find(mesh)
+    if written is None or written.name != face_attribute.NAME:  # else theirs is not in ours
+        return
+    numbers = _numbers(mesh)
+    known = (numbers > 0) & (numbers <= part_names.MAX_NUMBER)  # what is stored may be damaged
+    joined = joined_faces(mesh, np.where(known, numbers, 0)) & known
+    if joined.any():
+        transaction.keep_mesh(mesh)
+        _remove_joined(obj)
+        mesh.attributes[face_attribute.NAME].data.foreach_set("value", np.where(joined, 0, numbers).astype(np.int32))
+
+
+def joined_faces(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:
+    """Which faces Join has brought from other meshes to one with a result that was not edited before, (p,) bool.
+
+    It puts them behind the mesh's own, as Array and Duplicate do with copies, of which there are whole parts.
+
+    numbers : (p,) int, of the part of each face.
+    """
+    result, n = mesh.reeb_parts, mesh.reeb_parts.n_faces
+    if len(numbers) <= n or not fingerprints.begins_as(mesh, result.fingerprint, result.n_vertices, n):
+        return np.zeros(len(numbers), bool)
+    width = int(numbers.max()) + 1
+    own, more = (np.bincount(faces, minlength=width) for faces in (numbers[:n], numbers[n:]))
+    foreign = (own == 0) | (more % np.maximum(own, 1) > 0)
+    return (arange(len(numbers)) >= n) & foreign[numbers]
 
 
 def _remove_joined(obj: bpy.types.Object) -> bool:

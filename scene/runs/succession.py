@@ -19,8 +19,9 @@ from .. import bridge, property_updates, store
 from ..bridge import Shape
 from ..changes import pins
 from ..errors import SceneError
+from ..ours import orphan_outputs
 from ..outputs import face_attribute
-from ..reading import fingerprints, mesh_arrays
+from ..reading import mesh_arrays
 from ..result import part_names
 from ..store import Stored
 from ..transaction import keep_result
@@ -149,18 +150,9 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
 
 
 def _without_joined(mesh: bpy.types.Mesh, former: _Former) -> _Former:
-    """Take the faces that Join has brought from other meshes for new ones: their numbers are those of other lists.
-
-    It puts them behind the mesh's own, as Array and Duplicate do with copies, of which there are whole parts.
-    """
-    result, n = mesh.reeb_parts, mesh.reeb_parts.n_faces
-    if len(former.number) <= n or not fingerprints.begins_as(mesh, result.fingerprint, result.n_vertices, n):
-        return former
-    width = int(former.number.max()) + 1
-    own, more = (np.bincount(faces, minlength=width) for faces in (former.number[:n], former.number[n:]))
-    foreign = (own == 0) | (more % np.maximum(own, 1) > 0)
-    joined = (arange(len(former.number)) >= n) & foreign[former.number]
-    return _Former(np.where(joined, 0, former.number), np.where(joined, 0, former.pinned))
+    """Take the faces that Join has brought from other meshes for new ones: their numbers are those of other lists."""
+    joined = orphan_outputs.joined_faces(mesh, former.number)
+    return _Former(np.where(joined, 0, former.number), np.where(joined, 0, former.pinned)) if joined.any() else former
 
 
 def _copies_apart(obj: bpy.types.Object, shape: Shape, decomposition: Decomposition, former: _Former) -> _Former:

@@ -3,7 +3,13 @@
 
 import importlib
 
+import bpy
+import numpy as np
 import pytest
+import shapes
+from mathutils import Matrix
+from results import numbers as face_numbers
+from snapshot import activate
 
 
 @pytest.fixture
@@ -23,3 +29,47 @@ def test_a_file_that_was_edited_without_us_says_so_once_it_is_opened(look, obj, 
     assert look.bpy.app.timers.is_registered(look._look)
     look._look()
     assert obj.data.reeb_parts.edited == edited
+
+
+@pytest.mark.parametrize("copied", [False, True])
+def test_what_came_by_join_is_settled_before_the_next_edit(look, make, copied):
+    """After an edit nobody knew which faces had come: parts of theirs were pinned ones of ours, and groups stayed."""
+    into, tree = make(shapes.dumbbell(24, 10), "Into"), make(shapes.tube_tree(), "Tree")
+    into.data.transform(Matrix.Translation((20, 0, 0)))
+    activate(tree)
+    bpy.ops.reeb_parts.decompose(graph=False, materials=True, seams=True, face_sets=True)
+    activate(into)
+    bpy.ops.reeb_parts.decompose(graph=False, n_parts=2)
+    bpy.ops.reeb_parts.split()
+    mesh, own = into.data, len(into.data.polygons)
+    before, names = face_numbers(mesh), [part.name for part in mesh.reeb_parts.parts]
+    if copied:  # in Edit Mode: copies have the numbers of what they are copies of
+        edit(into, bpy.ops.mesh.duplicate, faces=slice(None))
+    else:
+        tree.select_set(True)
+        bpy.ops.object.join()
+    look._waiting.add(mesh.session_uid)
+    look._look()
+    assert mesh.reeb_parts.edited
+    assert into.vertex_groups.keys() == names
+    assert (face_numbers(mesh) == [*before, *(before if copied else [0] * (len(mesh.polygons) - own))]).all()
+    edit(into, bpy.ops.mesh.delete, faces=slice(5), type="FACE")
+    bpy.ops.reeb_parts.decompose(graph=False)
+    high = np.array([polygon.center.x > 10 for polygon in mesh.polygons])
+    assert copied or not any(part.pinned and part.number in face_numbers(mesh)[~high] for part in mesh.reeb_parts.parts)
+    bpy.ops.reeb_parts.clear()
+    assert into.vertex_groups.keys() == []
+    assert not any(mesh.materials)  # Join of Blender 5 leaves an empty slot
+    assert ".sculpt_face_set" not in mesh.attributes
+    assert not any(edge.use_seam for edge in mesh.edges)
+
+
+def edit(obj, operator, faces, **arguments):
+    """In Edit Mode, with some faces selected."""
+    for elements in (obj.data.vertices, obj.data.edges, obj.data.polygons):
+        elements.foreach_set("select", [False] * len(elements))
+    for polygon in obj.data.polygons[faces]:
+        polygon.select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    operator(**arguments)
+    bpy.ops.object.mode_set(mode="OBJECT")
