@@ -67,7 +67,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self._stroke_to(context, target, event)
 
     def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
-        if event.type == "LEFTMOUSE":
+        if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             self.painting, self.last = False, None
             return True
         larger = {"RIGHT_BRACKET": True, "LEFT_BRACKET": False}

@@ -77,6 +77,12 @@ def test_escape_leaves_everything_as_it_was(seen, name):
     assert seen[name] == []
 
 
+@pytest.mark.parametrize("name", TOOLS)
+def test_the_view_is_turned_with_alt_and_a_button(seen, name):
+    """Alt and the right button, which zoom in one of Blender's keymaps, ended tools; Paint took the left one."""
+    assert seen[f"{name} with Alt"] == [True, [f"REEB_PARTS_OT_{IDS[name]}"]]
+
+
 def test_a_click_on_a_node_chooses_its_part(seen):
     part, active, clicked = seen["a node"]
     assert part == ["Part 02", []]

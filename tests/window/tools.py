@@ -33,7 +33,7 @@ def steps():
     yield 0.5
     yield from by_submenu()
     yield from hidden()
-    for scene in (picked, picked_again, cut, painted, escaped, by_graph, disturbed, elsewhere, clipped, next_door,
+    for scene in (picked, picked_again, cut, painted, escaped, held, by_graph, disturbed, elsewhere, clipped, next_door,
                   deleted, switched_off):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
@@ -178,6 +178,27 @@ def escaped():
         yield from pointer.search(name)
         yield from pointer.tap("Escape")
         note(f"{name} escaped at once", differences(before))
+
+
+def held():
+    """With Alt held, a drag with the left button, as on a mouse with two, and a click with the right one; then Esc."""
+    inputs, view = bpy.context.preferences.inputs, pointer.view_area().spaces.active.region_3d
+    inputs.use_mouse_emulate_3_button = True
+    for name in TOOLS:
+        yield from pointer.search(name)
+        before = view.view_rotation.copy()
+        yield from pointer.rest(*pointer.in_view(0.4))
+        pointer.xdo("keydown", "Alt_L")
+        yield 0.1
+        yield from pointer.drag([pointer.in_view(across) for across in (0.4, 0.45, 0.5)])
+        pointer.xdo("click", 3)
+        yield 0.1
+        pointer.xdo("keyup", "Alt_L")
+        yield 0.2
+        note(f"{name} with Alt", (view.view_rotation != before, at_work()))
+        view.view_rotation = before
+        yield from pointer.tap("Escape")
+    inputs.use_mouse_emulate_3_button = False
 
 
 def by_graph():

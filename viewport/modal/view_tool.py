@@ -166,7 +166,8 @@ class ViewTool(ReportingOperator):
             return self.give_up(context)
 
     def _do(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type in _CANCEL and event.value == "PRESS":
+        moves_view = event.type == "RIGHTMOUSE" and event.alt  # where Alt and a button move the view
+        if event.type in _CANCEL and event.value == "PRESS" and not moves_view:
             return self.give_up(context)
         if event.type in _CONFIRM and event.value == "PRESS":
             return self.confirm(context)
