@@ -81,10 +81,12 @@ def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
 
 @persistent
 def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Another frame is shown, which is no edit."""
+    """Another frame is shown, which is no edit; whether a model is hidden may be animated."""
     for obj in _changed_objects(depsgraph):
         seen_points.evaluated(obj)
         graph_follow.soon(obj)
+    if not bpy.app.is_job_running("RENDER"):  # which shows frames of its own
+        _hide_graphs_soon()
 
 
 @persistent

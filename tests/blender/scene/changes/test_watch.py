@@ -64,6 +64,21 @@ def test_what_came_by_join_is_settled_before_the_next_edit(look, make, copied):
     assert not any(edge.use_seam for edge in mesh.edges)
 
 
+def test_a_graph_is_hidden_at_the_frames_at_which_its_model_is(look, obj, result):
+    """It stayed, alone, where the hiding is animated."""
+    for frame, hidden in ((1, False), (2, True), (3, False)):
+        obj.hide_viewport = hidden
+        obj.keyframe_insert("hide_viewport", frame=frame)
+    nodes = [item for item in obj.children if item.type == "EMPTY"]
+    for frame in (1, 2, 3, 2):
+        bpy.context.scene.frame_set(frame)
+        if bpy.app.timers.is_registered(look._hide_graphs):
+            look._hide_graphs()
+            bpy.app.timers.unregister(look._hide_graphs)
+        bpy.context.view_layer.update()
+        assert {item.visible_get() for item in nodes} == {frame != 2}
+
+
 def edit(obj, operator, faces, **arguments):
     """In Edit Mode, with some faces selected."""
     for elements in (obj.data.vertices, obj.data.edges, obj.data.polygons):
