@@ -68,6 +68,9 @@ def main(arguments: list[str]) -> int:
         except MemoryError:
             say("There is not enough memory; nothing was written.")
             return FAILED
+        if answer is None:
+            say("Standard output is closed.")
+            return FAILED
         try:
             answer.write(answer_text(result))
             answer.flush()
@@ -232,18 +235,44 @@ def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.
 
 
 @contextmanager
-def _standard_output() -> Iterator[TextIO]:
-    """Standard output for the answer alone: all that Blender prints goes to standard error.
+def _standard_output() -> Iterator[TextIO | None]:
+    """Standard output for the answer alone, None where it is closed: all that Blender prints goes to standard error.
 
     That stays so to the end of the process, which has more to print.
     """
-    sys.stdout.flush()
-    answer = os.fdopen(os.dup(1), "w", encoding="utf-8", newline="\n")  # the bytes of --json on Windows, too
+    answer = None
+    if _is_given(1):
+        sys.stdout.flush()
+        answer = os.fdopen(os.dup(1), "w", encoding="utf-8", newline="\n")  # the bytes of --json on Windows, too
+    if not _is_given(2):
+        _throw_away(2)
     # Before anything is written that could be aimed at it.
     os.dup2(2, 1)
     try:
         with redirect_stdout(sys.stderr):
             yield answer
     finally:
-        with suppress(OSError):  # the command has said so
-            answer.close()
+        if answer is not None:
+            with suppress(OSError):  # the command has said so
+                answer.close()
+
+
+def _is_given(stream: int) -> bool:
+    """Whether a standard stream was given to this process, and not closed.
+
+    A library, as that for sound, has the number of one that was closed for a pipe of its own, which it hands on to no
+    other process. What a process was given can be handed on.
+    """
+    if os.name == "nt":  # where nothing is handed on unless one says so
+        return True
+    try:
+        return os.get_inheritable(stream)
+    except OSError:  # nothing has its number
+        return False
+
+
+def _throw_away(stream: int) -> None:
+    """Have nothing read what is written to a standard stream."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, stream)
+    os.close(nowhere)

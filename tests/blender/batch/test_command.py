@@ -387,6 +387,26 @@ def test_standard_output_and_pipes_are_no_files(run, model, tmp_path):
 
 
 @unix
+def test_closed_streams(package, model, tmp_path, capfd):
+    """Their numbers had both ends of a pipe of the library for sound; of one the command made the other, and Blender
+    waited for that at its end for ever."""
+    main = import_module(f"{package}.batch.command").main
+    kept, ends = [os.dup(1), os.dup(2)], os.pipe()
+    try:
+        for stream, end in enumerate(ends, 1):
+            os.dup2(end, stream, inheritable=False)
+        status = main([str(model), "--json", str(tmp_path / "out.json")])
+        nowhere = [os.path.samestat(os.fstat(stream), os.stat(os.devnull)) for stream in (1, 2)]
+    finally:
+        for stream, end, own in zip((1, 2), ends, kept, strict=True):
+            os.dup2(own, stream)
+            os.close(own)
+            os.close(end)
+    assert (status, nowhere) == (1, [True, True])
+    assert json.loads((tmp_path / "out.json").read_text())["objects"]
+
+
+@unix
 def test_a_name_that_blender_would_cut_short_is_refused(run, tree, tmp_path):
     """It read the file of the shorter name, and said that this was the one."""
     folder = tmp_path.joinpath(*["d" * 200] * 4)
