@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .sentence import Sentence
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
@@ -44,6 +46,12 @@ class ParameterError(ReebError, ValueError):
     def __init__(self, message: str, name: str = "") -> None:
         super().__init__(message)
         self.name = name
+
+
+def wrong_kind(name: str, wanted: str, value: object) -> ParameterError:
+    """The error for an argument of another kind than is wanted, such as "a function"."""
+    return ParameterError(Sentence("{name} must be {wanted}, not {type}.", name=name, wanted=wanted,
+                                   type=type(value).__name__), name)
 
 
 class UnknownParameterError(ParameterError, TypeError):

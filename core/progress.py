@@ -7,6 +7,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from .errors import wrong_kind
+
 #: Called with the name of the stage and the share of the whole run that is done, 0..1.
 Progress = Callable[[str, float], None]
 
@@ -17,7 +19,7 @@ class Stopwatch:
     Parameters
     ----------
     progress : callable or None
-        Called as progress(stage, share).
+        Called as progress(stage, share). ParameterError for what cannot be called.
 
     Attributes
     ----------
@@ -28,6 +30,8 @@ class Stopwatch:
     """
 
     def __init__(self, progress: Progress | None) -> None:
+        if progress is not None and not callable(progress):
+            raise wrong_kind("progress", "a function", progress)
         self.progress = progress or (lambda stage, share: None)
         self.seconds: dict[str, float] = {}
         self.share = 0.0

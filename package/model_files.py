@@ -21,7 +21,7 @@ import numpy as np
 
 from .core.arrays.int64 import arange, cumsum
 from .core.atomic_files import HIDDEN
-from .core.errors import ReebError
+from .core.errors import ReebError, wrong_kind
 from .core.fbx_nodes import is_believable
 from .core.file_names import LONGEST_IN_BLENDER, is_too_long_for_blender, kind_of, readable
 from .core.memory import lacks_memory
@@ -115,6 +115,8 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
 
     Raises
     ------
+    ParameterError
+        ``path`` is no path.
     ModelFileError
         There is no such file, it is damaged, or it has no faces.
     NoReaderError
@@ -124,7 +126,10 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     MemoryError
         There is not enough memory, here or for that Blender.
     """
-    path = Path(path)
+    try:
+        path = Path(path)
+    except TypeError:
+        raise wrong_kind("path", "the name of a file", path) from None
     kind = path.suffix.lower()
     _check_is_file(path)
     if kind in BY_BLENDER:

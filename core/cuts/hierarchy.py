@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from operator import index
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..arrays.components import components
 from ..arrays.indexing import frozen, inverse
 from ..arrays.int64 import cumsum, full
 from ..arrays.pairs import distinct_pairs
+from ..errors import wrong_kind
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -216,8 +218,17 @@ class Hierarchy:
         -------
         part : (n_candidates,) int64
             Part of each candidate, 0..n_parts-1.
+
+        Raises
+        ------
+        ParameterError
+            ``n_parts`` is no whole number.
         """
-        done = self.merges[: max(self.n_candidates - n_parts, 0)]
+        try:
+            count = index(n_parts)  # of a small type of NumPy's, the number of candidates would be one, too
+        except TypeError:
+            raise wrong_kind("n_parts", "a whole number", n_parts) from None
+        done = self.merges[: max(self.n_candidates - count, 0)]
         return components(self.n_candidates, *done.T)[1]
 
     def parts_at(self, detail: float) -> np.ndarray:

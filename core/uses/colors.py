@@ -11,7 +11,10 @@ import numpy as np
 from ..arrays.indexing import frozen
 from ..arrays.int64 import full
 from ..arrays.pairs import partners_of
+from ..errors import ParameterError, wrong_kind
+from ..mesh.arguments import whole_numbers
 from ..result.numbering import NumberedParts, NumberGraph
+from ..sentence import Sentence
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -104,8 +107,21 @@ def part_colors(count: int, neighbors: np.ndarray) -> np.ndarray:
     -------
     colors : (count, 3) float64
         sRGB, 0..1.
+
+    Raises
+    ------
+    ParameterError
+        There are no such parts; ``error.name`` says which argument is wrong.
     """
-    return PALETTE[chosen_colors(count, neighbors, PALETTE)]
+    n_parts, pairs = whole_numbers(count), whole_numbers(neighbors)
+    if n_parts is None or n_parts.ndim or n_parts < 0:
+        raise wrong_kind("count", "a whole number from 0", count)
+    if pairs is not None and not pairs.size:
+        pairs = pairs.reshape(0, 2)
+    if pairs is None or pairs.shape[1:] != (2,) or not ((pairs >= 0) & (pairs < n_parts)).all():
+        raise ParameterError(Sentence("Neighbors must be pairs of whole numbers from 0 to {last}.",
+                                      last=int(n_parts) - 1), "neighbors")
+    return PALETTE[chosen_colors(int(n_parts), pairs, PALETTE)]
 
 
 def chosen_colors(

@@ -20,8 +20,9 @@ from ..arrays.indexing import underflow_is_zero
 from ..arrays.int64 import arange
 from ..arrays.pairs import both_ways
 from ..arrays.vectors import middles_of_each, second_moments_of_each
-from ..errors import MeshError
+from ..errors import MeshError, ParameterError, wrong_kind
 from ..graph.critical import MAXIMUM
+from ..mesh.arguments import numbers
 from ..mesh.copies import find_copies
 from ..mesh.grounds import are_ground, grounds_among
 from ..mesh.polygons import PolygonMesh
@@ -94,6 +95,8 @@ class _Surface:
     def of(cls, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None,
            parts: Parts) -> _Surface:
         """The surface of a mesh as ``decompose`` takes it, in an order that does not depend on the caller's."""
+        if not isinstance(parts, Parts):
+            raise wrong_kind("parts", "the parts of a result", parts)
         given, result = PolygonMesh.of(vertices, faces, polygon), parts.decomposition
         label, field, area = parts.labels, result.field, parts.area
         if (given.n_polygons, given.triangles.n_vertices) != (len(label), len(field)):
@@ -196,6 +199,8 @@ def part_descriptors(
     ------
     MeshError
         As ``decompose`` raises it, or the mesh has other numbers of faces or vertices than the one that was decomposed.
+    ParameterError
+        ``parts`` are none.
 
     Notes
     -----
@@ -299,5 +304,20 @@ def distances(one: np.ndarray, others: np.ndarray) -> np.ndarray:
     -------
     distance : (k,) float64
         0 for the same part; about 1 between parts of one kind on different models, 2 and more between others.
+
+    Raises
+    ------
+    ParameterError
+        One of them has another shape, or values that are no numbers; ``error.name`` says which.
     """
-    return (np.abs(np.asarray(others) - np.asarray(one)) / SCALE).mean(axis=1)
+    difference = _described("others", others, 2) - _described("one", one, 1)
+    return (np.abs(difference) / SCALE).mean(axis=1)
+
+
+def _described(name: str, values: np.ndarray, n_axes: int) -> np.ndarray:
+    """An argument as descriptors, an array of so many axes; raises ParameterError if it is none."""
+    found = numbers(values)
+    if found is None or found.ndim != n_axes or found.shape[-1] != len(NAMES):
+        raise ParameterError(Sentence("{name} must have {n} numbers for each part, as descriptors do.", name=name,
+                                      n=len(NAMES)), name)
+    return found

@@ -13,7 +13,7 @@ import scipy
 
 from ..arrays.indexing import bounds_of_each
 from ..arrays.pairs import partners_of
-from ..errors import ParameterError
+from ..errors import ParameterError, wrong_kind
 from ..graph.critical import KINDS
 from ..mesh.arguments import numbers as as_numbers
 from ..mesh.arguments import whole_numbers
@@ -102,9 +102,11 @@ def report(
     Raises
     ------
     ParameterError
-        ``parts`` are of another result, or one of the others has another shape, or values that are no such numbers;
-        ``error.name`` says which.
+        ``decomposition`` is none, ``parts`` are of another result, or one of the others has another shape, or values
+        that are no such numbers; ``error.name`` says which.
     """
+    if not isinstance(decomposition, Decomposition):
+        raise wrong_kind("decomposition", "a result of decompose", decomposition)
     parts = decomposition.parts() if parts is None else parts
     _check_result(decomposition, parts)
     numbers, names = _numbers_and_names(parts, numbers, names)
@@ -146,6 +148,9 @@ def _numbers_and_names(
     parts: Parts, numbers: Iterable[int] | None, names: Iterable[str] | None
 ) -> tuple[list[int], list[str]]:
     """Number and name of each part, those given or its own; raises ParameterError if they are none."""
+    for given, iterable in (("numbers", numbers), ("names", names)):
+        if iterable is not None and not isinstance(iterable, Iterable):
+            raise wrong_kind(given, "a list", iterable)
     numbers = list(range(1, parts.count + 1) if numbers is None else numbers)
     names = list(parts.names if names is None else names)
     for given, values in (("numbers", numbers), ("names", names)):

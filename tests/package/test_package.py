@@ -154,6 +154,12 @@ def test_an_unknown_parameter_has_an_error_of_its_own():
     assert caught.value.name == "detial"
 
 
+@pytest.mark.parametrize("path", [None, 5, b"model.obj"])
+def test_what_is_no_path_is_no_model(path):
+    with pytest.raises(reeb_parts.ParameterError, match=r"^path must be the name of a file, not \w+\.$"):
+        reeb_parts.read_model(path)
+
+
 def test_points_without_faces_are_no_models(tmp_path):
     """trimesh counts .xyz among the files of meshes; the list of kinds offered it."""
     (tmp_path / "points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")

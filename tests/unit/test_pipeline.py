@@ -10,7 +10,7 @@ import pytest
 import shapes
 from results import same_partition
 
-from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
+from core import PRESETS, Cancelled, EmptyMeshError, MeshError, ParameterError, Parameters, TriMesh, decompose
 from core.arrays.components import components
 from core.mesh.labels import disagreement
 from core.uses.colors import part_colors
@@ -743,3 +743,8 @@ def test_values_of_the_graph_are_those_of_the_field(equalize):
     np.testing.assert_allclose(graph.point_value[out], result.field[near].mean(axis=1), atol=0.03)
     low, high = graph.node_value[graph.arcs].T
     assert (low <= high).all()
+
+
+def test_progress_that_is_no_function_is_refused():
+    with pytest.raises(ParameterError, match=r"^progress must be a function, not int\.$"):
+        decompose(*shapes.tube_tree(), progress=5)

@@ -864,6 +864,12 @@ TEXTS = {
         "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
     "The parts are of another mesh: give the one that was decomposed.":
         "Die Teile gehören zu einem anderen Mesh: Nötig ist das, das zerlegt wurde.",
+    "{name} must be {wanted}, not {type}.":
+        "{name} muss {wanted} sein, nicht {type}.",
+    "{name} must have {n} numbers for each part, as descriptors do.":
+        "{name} muss {n} Zahlen für jedes Teil haben, wie Deskriptoren.",
+    "Neighbors must be pairs of whole numbers from 0 to {last}.":
+        "Nachbarn müssen Paare ganzer Zahlen von 0 bis {last} sein.",
     "The parts are of another result: give the one that they were read from.":
         "Die Teile gehören zu einem anderen Ergebnis: Nötig ist das, aus dem sie gelesen wurden.",
     "{name} must be finite numbers of shape {shape}, not {given}.":

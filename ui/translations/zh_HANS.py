@@ -777,6 +777,12 @@ TEXTS = {
     "There are {n} values for {total} elements: each needs one.":
         "有 {n} 个值对应 {total} 个元素：每个元素需要一个值。",
     "The parts are of another mesh: give the one that was decomposed.": "部件属于另一个网格：请给出被分解的那个网格。",
+    "{name} must be {wanted}, not {type}.":
+        "{name} 必须为 {wanted}，而不是 {type}。",
+    "{name} must have {n} numbers for each part, as descriptors do.":
+        "{name} 必须像描述符那样，每个部件有 {n} 个数。",
+    "Neighbors must be pairs of whole numbers from 0 to {last}.":
+        "邻接必须为 0 到 {last} 的整数对。",
     "The parts are of another result: give the one that they were read from.":
         "部件属于另一个结果：请给出读取这些部件的那个结果。",
     "{name} must be finite numbers of shape {shape}, not {given}.":

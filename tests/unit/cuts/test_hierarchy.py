@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from core.cuts.hierarchy import Candidates, Dendrogram, Hierarchy
+from core.errors import ParameterError
 
 
 def random_hierarchy(rng, n=30, loose=1):
@@ -164,3 +165,13 @@ def test_a_candidate_is_not_parted_from_itself():
     hierarchy = Hierarchy.of(3, [(0, 1), (1, 2)], [0.2, 0.7])
     table = [(0, 0, 0.7, 0.2), (0, 0, 0.7, 0.2), (0.7, 0.7, 0, 0.7), (0.2, 0.2, 0.7, 0)]
     np.testing.assert_array_equal(hierarchy.salience_table(np.array([1, 1, 2, 0])), table)
+
+
+def test_a_number_of_parts_of_any_type_that_is_whole():
+    """Of NumPy's int8, the number of candidates became one, too, or could not."""
+    hierarchy = Hierarchy.of(300, [(i, i + 1) for i in range(299)], np.linspace(0, 1, 299))
+    for number in (100, np.int8(100), np.uint64(100)):
+        assert hierarchy.parts(number).max() == 99
+    for number in ("3", 2.0, None):
+        with pytest.raises(ParameterError, match="^n_parts must be a whole number, not"):
+            hierarchy.parts(number)

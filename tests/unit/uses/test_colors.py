@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 
+from core.errors import ParameterError
 from core.uses.colors import PALETTE, PALETTES, chosen_colors, distance_matrix, part_colors
 
 
@@ -101,3 +102,17 @@ def test_same_answer_twice_and_more_parts_keep_the_colors_of_the_first():
     np.testing.assert_array_equal(part_colors(40, none), part_colors(40, none))
     np.testing.assert_array_equal(part_colors(40, none)[:20], part_colors(20, none))
     assert part_colors(0, none).shape == (0, 3)
+
+
+@pytest.mark.parametrize(("count", "neighbors", "wrong"), [
+    ("x", [], "count"), (2.5, [], "count"), (-1, [], "count"), (3, None, "neighbors"), (3, [(0, 3)], "neighbors"),
+    (3, [(-1, 0)], "neighbors"), (3, [(0, 1, 2)], "neighbors")])
+def test_what_are_no_parts_is_refused_by_name(count, neighbors, wrong):
+    with pytest.raises(ParameterError) as caught:
+        part_colors(count, neighbors)
+    assert caught.value.name == wrong
+
+
+def test_lists_and_small_numbers_are_taken():
+    assert part_colors(np.int8(2), [(0, 1)]).tolist() == PALETTE[:2].tolist()
+    assert part_colors(0, []).shape == (0, 3)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core import Hierarchy, MeshError, Parameters, decompose
+from core import Hierarchy, MeshError, ParameterError, Parameters, decompose
 from core.mesh.triangles import TriMesh
 from core.uses.descriptors import NAMES, SCALE, _Surface, distances, part_descriptors
 
@@ -162,3 +162,17 @@ def test_depth_is_the_way_from_the_cuts_of_the_own_part():
     one, alone = np.zeros(mesh.n_faces, int), np.zeros(1, bool)
     whole = _Surface(mesh, one, np.zeros(mesh.n_vertices), np.array([8.0]), 1.0, alone)
     assert (whole.depth() == 0).all()
+
+
+@pytest.mark.parametrize(("name", "value"), [
+    ("one", 5.0), ("one", "x"), ("one", np.zeros(3)), ("others", None), ("others", np.zeros(len(NAMES))),
+    ("others", np.zeros((2, 3)))])
+def test_what_are_no_descriptors_is_refused_by_name(name, value):
+    with pytest.raises(ParameterError, match=f"^{name} must have {len(NAMES)} numbers") as caught:
+        distances(**{"one": np.zeros(len(NAMES)), "others": np.zeros((2, len(NAMES))), name: value})
+    assert caught.value.name == name
+
+
+def test_what_is_no_parts_is_refused(tree):
+    with pytest.raises(ParameterError, match=r"^parts must be the parts of a result, not int\.$"):
+        part_descriptors(*tree, 5)

@@ -163,3 +163,12 @@ def test_transform_turns_the_graph(result):
                for place in np.reshape(row[name], (-1, 3))] for graph in (here, there)]
     x, y, z = np.transpose(places[0])
     np.testing.assert_allclose(places[1], np.stack([-y, x, z], axis=1))
+
+
+def test_what_is_none_of_its_arguments_is_refused(result):
+    """An AttributeError or a TypeError."""
+    for arguments, sentence in (((5, {}), "decomposition must be a result of decompose, not int."),
+                                ((result, {"numbers": 5}), "numbers must be a list, not int."),
+                                ((result, {"names": 5}), "names must be a list, not int.")):
+        with pytest.raises(ParameterError, match=f"^{sentence}$"):
+            report(arguments[0], **arguments[1])
