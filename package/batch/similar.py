@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pyarrow import ArrowException
+import pyarrow as pa
 
 from ..core.errors import ReebError
 from ..core.file_names import kind_of, spelled
@@ -22,9 +22,11 @@ from ..model_files import read_model
 from ..outputs import LABELS
 from .records import digest_of, read_record
 from .sources import folder_of
-from .tables import read_rows
+from .tables import MODELS, PARTS, read_rows
 
-COLUMNS = ["model", "number", "name", "share", "descriptor"]
+COLUMNS = pa.schema([PARTS.field(name) for name in ("model", "number", "name", "share", "descriptor")])
+PATHS = pa.schema([MODELS.field(name) for name in ("name", "path")])
+FAR = 1e100  # no descriptor has such numbers
 PART, REST = (0.9, 0.62, 0.0), (0.82, 0.83, 0.85)  # colors of the part and of the rest of its model
 
 STYLE = """
@@ -87,15 +89,18 @@ def similar_parts(out: Path, model: str, number: int, count: int, other_models: 
     return [{**_plain(one), "distance": 0.0}, *_nearest(one, found, rows, count)]
 
 
-def _rows(table: Path, columns: list[str]) -> Iterator[dict[str, Any]]:
+def _rows(table: Path, columns: pa.Schema) -> Iterator[dict[str, Any]]:
     """Rows of a table; raises PartError where it is damaged, or of a version that had other columns."""
     try:
         for row in read_rows(table, columns):
-            if row.keys() != set(columns) or None in row.values() or len(row.get("descriptor", NAMES)) != len(NAMES):
+            descriptor = row.get("descriptor", [0.0] * len(NAMES))
+            if row.keys() != set(columns.names) or None in row.values() or len(descriptor) != len(NAMES):
                 raise PartError(Sentence("{table} is of another version of Reeb Parts: run reeb-parts batch again.",
                                          table=table))
+            if None in descriptor or not sum(map(abs, [*descriptor, row.get("share", 0.0)])) < FAR:
+                raise PartError(Sentence("{table} is damaged: run reeb-parts batch again.", table=table))
             yield row
-    except (OSError, ArrowException) as error:
+    except (OSError, pa.ArrowException, ValueError) as error:  # the latter of names that are no text
         raise _unread(table, error) from error
 
 
@@ -122,7 +127,7 @@ def _plain(row: dict[str, Any]) -> dict[str, Any]:
 
 def page(out: Path, parts: list[dict[str, Any]]) -> str:
     """A page with a picture of each part in its model, the one that was asked for first."""
-    paths = {row["name"]: row["path"] for row in _rows(out / "models.parquet", ["name", "path"])}
+    paths = {row["name"]: row["path"] for row in _rows(out / "models.parquet", PATHS)}
     cards = "".join(
         f"<figure>{_image(out, paths.get(part['model'], ''), part)}<figcaption><b>{html.escape(part['model'])}</b><br>"
         f"{html.escape(part['name'])}, {part['share']:.1%} of the area<br>distance {part['distance']:.2f}</figcaption>"

@@ -109,8 +109,14 @@ class _Table:
             self._writer.is_open = False  # or it would write on, to a closed file, when it is collected
 
 
-def read_rows(path: Path, columns: list[str] | None = None) -> Iterator[dict[str, Any]]:
-    """Rows of a table, as dicts."""
+def read_rows(path: Path, schema: pa.Schema) -> Iterator[dict[str, Any]]:
+    """Rows of a table, as dicts.
+
+    schema : of the columns to read, of MODELS or PARTS; those that the table does not have are in no row. Raises
+    OSError and ArrowException for a damaged table and for columns of other types, ValueError for names that are no
+    text.
+    """
     with path.open("rb") as data, parquet.ParquetFile(data) as file:
-        for batch in file.iter_batches(columns=columns):
-            yield from batch.to_pylist()
+        for batch in file.iter_batches(columns=schema.names):
+            there = pa.schema([schema.field(name) for name in batch.schema.names])
+            yield from pa.Table.from_batches([batch]).cast(there).to_pylist()

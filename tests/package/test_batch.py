@@ -194,7 +194,10 @@ def test_a_part_that_is_not_there_is_said_not_to_be(part, status, words, batch, 
 @pytest.mark.parametrize(("change", "words"), [
     (lambda row: {**row, "descriptor": row["descriptor"][:-1]}, "is of another version of Reeb Parts"),
     (lambda row: {key: value for key, value in row.items() if key != "descriptor"}, "is of another version of Reeb"),
-    (None, "could not be read: Parquet")], ids=["shorter", "none", "damaged"])
+    (lambda row: {**row, "descriptor": [np.nan] * len(row["descriptor"])}, "parts.parquet is damaged"),
+    (lambda row: {**row, "descriptor": 1.0}, "parts.parquet could not be read: "),
+    (lambda row: {**row, "share": "all"}, "parts.parquet could not be read: "),
+    (None, "could not be read: Parquet")], ids=["shorter", "none", "no numbers", "a number", "text", "damaged"])
 def test_tables_of_another_version_are_one_sentence(change, words, batch, tmp_path):
     """They ended with tracebacks."""
     table = tmp_path / "parts.parquet"

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from reeb_parts.batch.tables import read_rows, write_tables
+from reeb_parts.batch.tables import MODELS, PARTS, read_rows, write_tables
 from reeb_parts.core.atomic_files import FORMER, HIDDEN
 from reeb_parts.output_files import OutputFileError, SharedFolder, remove_leftovers, write_files, write_folder
 
@@ -129,7 +129,7 @@ def test_tables_are_in_a_folder_whose_name_is_no_utf8(tmp_path):
     out = tmp_path / os.fsdecode(b"m\xf6bel")
     out.mkdir()
     models, parts = write_tables(out, [])
-    assert [*read_rows(models), *read_rows(parts)] == []
+    assert [*read_rows(models, MODELS), *read_rows(parts, PARTS)] == []
 
 
 def test_files_are_all_new_or_all_old(full_at, tmp_path):
