@@ -10,10 +10,16 @@ from ..arrays.indexing import first_at_place
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs, repeated_in
 from ..arrays.vectors import row_products
+from ..sentence import Sentence
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
 SAME_SIDE = 0.9  # cosine of the angle between two surfaces at a border from which on they are on one side of it
 NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
+
+
+def border_note(n_edges: int) -> Sentence:
+    """What to say of the borders of a mesh."""
+    return Sentence("{n} border {n:edge|edges}: the surface is open there.", n=n_edges)
 
 
 def joined_borders(

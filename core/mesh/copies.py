@@ -8,7 +8,7 @@ of the face on which it lies. So is a second skin, which runs along the whole me
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -46,6 +46,8 @@ class Copies:
         Whether each polygon is the other side of the one of which it is a copy.
     apart : bool
         Whether the copies are second skins, which do not lie on their originals.
+    n_rims : int
+        Number of edges where copies go on in what they are copies of: borders of what is left, but not of the mesh.
     """
 
     polygon: np.ndarray
@@ -54,6 +56,7 @@ class Copies:
     home: np.ndarray
     turned: np.ndarray
     apart: bool = False
+    n_rims: int = 0
 
     @property
     def n_copies(self) -> int:
@@ -147,7 +150,15 @@ def _inner_sides(given: PolygonMesh, place: np.ndarray) -> Copies | None:
     home[mesh.faces[of_copy]] = _nearest_corners(mesh, of_copy, near)
     kept = mesh.faces[is_kept[polygon]]
     home[kept] = kept
-    return _apart(original, home)
+    found = _apart(original, home)
+    return None if found is None else replace(found, n_rims=_rims(mesh, is_kept[polygon]))
+
+
+def _rims(mesh: TriMesh, is_kept: np.ndarray) -> int:
+    """At how many edges one of the triangles that are kept, (m,) bool, touches others."""
+    edge, count = mesh.edges.face_edges, len(mesh.edges.vertices)
+    kept, others = (np.bincount(edge[some].ravel(), minlength=count) for some in (is_kept, ~is_kept))
+    return int(((kept == 1) & (others > 0)).sum())
 
 
 def _outer_polygons(given: PolygonMesh, along: np.ndarray) -> np.ndarray:

@@ -18,6 +18,7 @@ from ..cuts.hierarchy import Hierarchy
 from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
 from ..mesh.arguments import whole_numbers
+from ..mesh.borders import border_note
 from ..mesh.copies import Copies
 from ..mesh.face_graph import FaceGraph
 from ..mesh.labels import majority
@@ -345,7 +346,8 @@ class Decomposition:
             vertex_candidates=self.vertex_candidates[copies.home], field=self.field[copies.home],
             contacts=np.concatenate([kept[self.contacts], np.stack([kept[face[lies]], lies], axis=1)]),
             links=kept[self.links], face_twin=copies.images(self.face_twin) if has_twins else self.face_twin,
-            face_side=self.face_side[face] if has_twins else self.face_side, notes=(*self.notes, copies.note))
+            face_side=self.face_side[face] if has_twins else self.face_side,
+            notes=(*_without_rims(self.notes, copies.n_rims), copies.note))
 
     def to_arrays(self) -> dict[str, np.ndarray]:
         """All arrays by name, those of hierarchy and graph as "hierarchy.merges" and so on; not copied."""
@@ -393,6 +395,18 @@ class Decomposition:
             They have a layout that this version does not know any more.
         """
         return cls.from_arrays(*stored.read(data, counts))
+
+
+def _without_rims(notes: tuple[str, ...], n_rims: int) -> tuple[str, ...]:
+    """Notes in which so many edges count as no borders."""
+    found = border_note(n_rims)
+
+    def mended(note: str) -> str:
+        if isinstance(note, Sentence) and note.message == found.message:
+            return border_note(note.values["n"] - n_rims)
+        return note
+
+    return tuple(note for note in map(mended, notes) if note != border_note(0))
 
 
 def too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:

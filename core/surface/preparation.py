@@ -19,7 +19,7 @@ from ..arrays.int64 import arange, cumsum, full
 from ..arrays.pairs import distinct_pairs, pair_keys
 from ..arrays.ties import TIE
 from ..arrays.vectors import distances_between
-from ..mesh.borders import joined_borders
+from ..mesh.borders import border_note, joined_borders
 from ..mesh.polygons import MIN_FACES, PolygonMesh
 from ..mesh.triangles import TriMesh, next_side
 from ..sentence import Sentence
@@ -440,7 +440,7 @@ def _notes(given: PolygonMesh) -> tuple[Sentence, ...]:
     notes = (
         Sentence("{n} {n:edge joins|edges join} more than two faces (non-manifold).",
                  n=int((mesh.edges.n_faces > 2).sum())),
-        Sentence("{n} border {n:edge|edges}: the surface is open there.", n=int((mesh.edges.n_faces == 1).sum())),
+        border_note(int((mesh.edges.n_faces == 1).sum())),
         Sentence("{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.", n=n_lost),
         Sentence("{n} {n:face has zero area; it follows its|faces have zero area; they follow their} neighbors.",
                  n=int(flat.sum())),

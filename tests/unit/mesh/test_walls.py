@@ -40,6 +40,7 @@ def test_both_sides_of_a_wall_have_the_parts_of_the_surface():
         assert (outer != inner).mean() < 0.01
         assert rand_index_error(outer, expected) < 0.01
     assert result.notes[-1].startswith(f"{copied(WALL).sum()} faces run along others as a second skin")
+    assert not any("border edge" in note for note in result.notes)
     assert result.candidate_area.sum() > 1.8 * alone.candidate_area.sum()
     assert len(result.field) == len(WALL.vertices)
     assert np.isfinite(result.field[np.unique(WALL.faces)]).all()
