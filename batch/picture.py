@@ -21,6 +21,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
+from ..core.arrays.vectors import box_diagonal
 from ..scene.reading import mesh_arrays, placing
 from ..scene.saving import file_checks
 from ..scene.temporary import freed, removed
@@ -89,12 +90,12 @@ def render_parts(objects: list[tuple[bpy.types.Object, bpy.types.Collection | No
         # Around the origin: single precision is finest there, and the camera stands before it.
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
         to_middle, points = Matrix.Translation(-Vector(middle)), points - middle
-        extent = float(np.linalg.norm(np.ptp(points, axis=0)))
+        extent = box_diagonal(points)
         for (obj, graph), shape in zip(objects, shapes, strict=True):
             _add_model(obj, to_middle, parts["model"], made)
             if graph is not None:
                 # By the size of this one: where several stand far apart, a share of all would bury each.
-                own = float(np.linalg.norm(np.ptp(shape, axis=0)))
+                own = box_diagonal(shape)
                 _add_graph(graph, to_middle, own, parts["graph"], made)
         _add_floor(points, extent, parts["floor"], made)
         _add_light(scene, view, made)

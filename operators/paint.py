@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from ..core.arrays.int64 import arange
+from ..core.arrays.vectors import box_diagonal
 from ..scene.changes import pins
 from ..scene.reporting import PartOperator
 from ..scene.result import part_names
@@ -47,7 +48,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
 
     def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         if not self.radius:
-            self.radius = START_SIZE * float(np.linalg.norm(np.ptp(self.model.face_center, axis=0)))
+            self.radius = START_SIZE * box_diagonal(self.model.face_center)
         super().begin(context, obj)
         self.stroke.clear()
         self.brush = Brush(obj, self.model, self.number)

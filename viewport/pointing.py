@@ -16,6 +16,7 @@ from mathutils.bvhtree import BVHTree
 from numpy.typing import ArrayLike
 
 from ..core.arrays.int64 import arange
+from ..core.arrays.vectors import box_diagonal
 from ..scene import store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_finding, graph_follow
@@ -144,7 +145,7 @@ class Model:
         _, _, face, distance = surface.tree.find_nearest(place.tolist())
         if face is not None and surface.n_faces == len(self.face_value):
             return face
-        near = face is not None and distance <= ON_SURFACE * float(np.linalg.norm(np.ptp(self.face_center, axis=0)))
+        near = face is not None and distance <= ON_SURFACE * box_diagonal(self.face_center)
         return self._nearest_face(place, self._part_seen(obj, face) if near else 0)
 
     def _part_seen(self, obj: bpy.types.Object, face: int) -> int:

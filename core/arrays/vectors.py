@@ -31,6 +31,11 @@ def unit(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.maximum(lengths(vectors), 1e-300)[:, None]
 
 
+def box_diagonal(points: np.ndarray) -> float:
+    """Diagonal of the box around points, (n, 2 or 3), at least one of them: their size, in their unit."""
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
 def across(direction: np.ndarray) -> np.ndarray:
     """A unit vector, (3,) float64, at a right angle to a direction, (3,) float64, which is not 0."""
     found = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])

@@ -9,7 +9,7 @@ from ..arrays.components import components
 from ..arrays.indexing import first_at_place
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import distinct_pairs, repeated_in
-from ..arrays.vectors import row_products
+from ..arrays.vectors import box_diagonal, row_products
 from ..sentence import Sentence
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
@@ -53,7 +53,7 @@ def joined_borders(
     place = np.unique(pairs[np.bincount(pair, n_edge_faces[beside]) == 1])
     used = np.zeros(len(vertices), bool)
     used[corner_vertex] = True
-    gap = GAP * np.linalg.norm(np.ptp(vertices[used], axis=0))
+    gap = GAP * box_diagonal(vertices[used])
     return joined_nearby(vertices, place, np.full(len(place), gap), joined[corner_vertex], corner_face)[joined]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays.indexing import begins_run, ends_run, renumbered, stable_order, sums_by
 from ..arrays.int64 import arange, cumsum
 from ..arrays.pairs import distinct_pairs
-from ..arrays.vectors import cross, lengths
+from ..arrays.vectors import box_diagonal, cross, lengths
 from .borders import joined_borders
 
 
@@ -154,7 +154,7 @@ class CornerTable:
     @property
     def diagonal(self) -> float:
         """Diagonal of the bounding box of all faces, in the unit of the vertices: one of no face can be anywhere."""
-        return float(np.linalg.norm(np.ptp(self.vertices[self.corner_vertex], axis=0)))
+        return box_diagonal(self.vertices[self.corner_vertex])
 
     @property
     def next_corner(self) -> np.ndarray:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays.hashes import hashed_rows
 from ..arrays.indexing import place_among, spread_evenly, taken
-from ..arrays.vectors import cross, inner_products, lengths, row_products, second_moments, weighted_sum
+from ..arrays.vectors import box_diagonal, cross, inner_products, lengths, row_products, second_moments, weighted_sum
 from .copies import find_copies
 from .polygons import MIN_FACES, PolygonMesh
 from .terrain import WIDER as WIDER_TERRAIN
@@ -255,7 +255,7 @@ def _is_shell(mesh: TriMesh, mine: np.ndarray, others: np.ndarray) -> bool:
     if mine.sum() > min(others.sum(), MOST_OF_SHELL):
         return False
     corners, theirs = mesh.corners[mine].reshape(-1, 3), mesh.corners[others]
-    diameter = np.linalg.norm(np.ptp(corners, axis=0))
+    diameter = box_diagonal(corners)
     outside = OUTSIDE * diameter
     if (theirs.min(axis=(0, 1)) < corners.min(axis=0) - outside).any() or (
             theirs.max(axis=(0, 1)) > corners.max(axis=0) + outside).any():

@@ -46,7 +46,7 @@ def find_skins(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
     below = nearest_polygons(given, pieces, base, 0)
     of_skin = np.flatnonzero(base[pieces.of_polygon] >= 0)
     area, middle, normal = measured_polygons(given)
-    near = lengths(middle[of_skin] - middle[below[of_skin]]) <= FAR * _diameter(given)
+    near = lengths(middle[of_skin] - middle[below[of_skin]]) <= FAR * given.triangles.diagonal
     near &= row_products(normal[of_skin], normal[below[of_skin]]) < FACING
     along = np.bincount(pieces.of_polygon[of_skin], near * area[of_skin], pieces.count)
     base[along < MOST_OF_PIECE * pieces.area] = -1
@@ -59,17 +59,12 @@ def _are_most(pieces: Pieces, base: np.ndarray) -> bool:
     return len(skin) > 0 and pieces.area[np.append(skin, base[skin])].sum() >= MOST_OF_MESH * pieces.area.sum()
 
 
-def _diameter(given: PolygonMesh) -> float:
-    """Diagonal of the box around the mesh."""
-    return float(np.linalg.norm(np.ptp(given.triangles.vertices[given.triangles.used], axis=0)))
-
-
 def _alike(given: PolygonMesh, pieces: Pieces) -> np.ndarray:
     """Pairs of pieces with the same polygons and with middles near each other, nearer than others, (k, 2) int64."""
     from scipy.spatial import cKDTree  # imported here for the reason that arrays.components gives
 
     kind, has_like = _kinds(given, pieces)
-    some, far = np.flatnonzero(has_like), MIDDLE * _diameter(given)
+    some, far = np.flatnonzero(has_like), MIDDLE * given.triangles.diagonal
     if not len(some):
         return np.empty((0, 2), np.int64)
     point = np.column_stack([pieces.middle[some], 2 * far * kind[some]])

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, frozen, renumbered, sealed, stable_order, sums_by, taken
 from ..arrays.int64 import cumsum, full
-from ..arrays.vectors import BLOCK, cross, distances_between, lengths, row_products
+from ..arrays.vectors import BLOCK, box_diagonal, cross, distances_between, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
 from .arguments import check_is_mesh
@@ -200,6 +200,11 @@ class TriMesh:
         used = np.zeros(self.n_vertices, bool)
         used[self.faces] = True
         return used
+
+    @property
+    def diagonal(self) -> float:
+        """Diagonal of the box around all faces, in the unit of the vertices: a vertex of none can be anywhere."""
+        return box_diagonal(self.vertices[self.used])
 
     @cached_property
     def area_normals(self) -> np.ndarray:

@@ -27,7 +27,7 @@ from ..arrays.indexing import (
 )
 from ..arrays.int64 import arange, full
 from ..arrays.ties import DENSE, TIE, ranks
-from ..arrays.vectors import inner_products, second_moments, weighted_sum
+from ..arrays.vectors import box_diagonal, inner_products, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import TriMesh, of_corners
 from .diagonals import divided_by_shape, outer_first
@@ -213,7 +213,7 @@ def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: n
     if not len(chosen):
         return np.zeros(0, bool)
     low, high = bounds_of_each(piece, points, count)
-    near = NEAR * np.linalg.norm(np.ptp(points, axis=0))
+    near = NEAR * box_diagonal(points)
     return np.array([((low <= high[one] + near) & (high >= low[one] - near)).all(axis=1).sum() > 1 for one in chosen],
                     bool)
 

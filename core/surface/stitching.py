@@ -68,7 +68,7 @@ def stitched(mesh: TriMesh) -> Stitched:
     nothing = Stitched(mesh, arange(mesh.n_faces), joined, np.empty((0, 2), np.int64))
     if (mesh.edges.n_faces != 1).all():
         return nothing
-    size = float(np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0)))
+    size = mesh.diagonal
     result, parent = _split_at_ends(mesh, size, wide=False)
     joined = _across_gaps(result, size)
     if (joined != arange(mesh.n_vertices)).any():

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
+from ..arrays.vectors import box_diagonal
 from ..errors import MeshError
 from ..mesh.arguments import numbers
 from ..mesh.corners import CornerTable, next_of_owner
@@ -113,7 +114,7 @@ def _with_images(vertices: np.ndarray, used: np.ndarray, border: np.ndarray,
     height = mirror.heights(vertices)
     at_border = np.zeros(len(vertices), bool)
     at_border[border] = True
-    on_plane = at_border & (np.abs(height) <= WELD * np.linalg.norm(np.ptp(vertices[used], axis=0)))
+    on_plane = at_border & (np.abs(height) <= WELD * box_diagonal(vertices[used]))
     vertices = np.where(on_plane[:, None], vertices - height[:, None] * mirror.normal, vertices)
     beside = np.flatnonzero(~on_plane)
     image = arange(len(vertices))
@@ -129,4 +130,4 @@ def is_one_side(vertices: np.ndarray, plane: np.ndarray) -> bool:
     if not len(vertices):
         return False
     height = MirrorPlane.of(plane).heights(vertices)
-    return bool(min(height.max(), -height.min()) <= WELD * np.linalg.norm(np.ptp(vertices, axis=0)))
+    return bool(min(height.max(), -height.min()) <= WELD * box_diagonal(vertices))

@@ -15,6 +15,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...core.arrays.vectors import box_diagonal
 from ...core.graph.critical import KINDS
 from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
@@ -291,7 +292,7 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
     if obj is None:
         return
     corners = np.array([corner[:] for corner in obj.bound_box])
-    size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    size = style.node_size * box_diagonal(corners)
     for item in graph_finding.originals(graph_finding.wherever(obj)):
         transaction.keep(item, "show_in_front")
         item.show_in_front = style.in_front

@@ -15,6 +15,7 @@ from ...core.arrays.components import components
 from ...core.arrays.hashes import hashed_sets
 from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.pairs import distinct_pairs
+from ...core.arrays.vectors import box_diagonal
 from ...core.mesh.triangles import EdgeTable
 from ..pieces.closing import caps
 from ..reading import mesh_arrays
@@ -118,5 +119,5 @@ def _places(points: np.ndarray) -> np.ndarray:
     from scipy.spatial import cKDTree
 
     own, place = np.unique(points, axis=0, return_inverse=True)
-    near = cKDTree(own).query_pairs(2e-6 * float(np.linalg.norm(np.ptp(own, axis=0))), output_type="ndarray")
+    near = cKDTree(own).query_pairs(2e-6 * box_diagonal(own), output_type="ndarray")
     return components(len(own), *near.T)[1][place.ravel()]

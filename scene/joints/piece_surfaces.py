@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
+from ...core.arrays.vectors import box_diagonal
 from ..pieces.closing import caps
 from ..reading import mesh_arrays
 
@@ -62,7 +63,7 @@ class Side:
         others = surface.is_cap & ~np.isin(surface.polygon, cut.faces[side])
         if others.any():
             self._trees.append(surface.tree(others))
-        self._size = float(np.linalg.norm(np.ptp(surface.points, axis=0)))
+        self._size = box_diagonal(surface.points)
 
     def distance(self, points: np.ndarray) -> np.ndarray:
         return np.min([[tree.find_nearest(point)[3] or 0.0 for point in points.tolist()] for tree in self._trees],

@@ -16,7 +16,7 @@ from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
 
 from ...core.arrays.components import components
-from ...core.arrays.vectors import across
+from ...core.arrays.vectors import across, box_diagonal
 from ..errors import SceneError
 from ..reading import mesh_arrays, mesh_groups
 from ..reading.matrix_layers import as_bmesh
@@ -173,7 +173,7 @@ def _imprint(mesh: bpy.types.Mesh, shared: BVHTree, planes: list[tuple[np.ndarra
     """Divide the caps of a mesh that lie on shared ones as these are, so that they stay alike."""
     triangles, face = _cap_triangles(mesh)
     points = mesh_arrays.basis_points(mesh)
-    near = 1e-6 * float(np.linalg.norm(np.ptp(points, axis=0)))
+    near = 1e-6 * box_diagonal(points)
     middle = points[triangles].mean(axis=1)
     on = [shared.find_nearest(place, 5 * near)[0] is not None for place in middle.tolist()]
     wanted = np.unique(face[np.array(on, bool)])
@@ -220,7 +220,7 @@ def _is_straight(loop: BMLoop) -> bool:
 
 def _halves(mesh: bpy.types.Mesh, normal: np.ndarray, level: float) -> tuple[bpy.types.Mesh, bpy.types.Mesh] | None:
     """What is below a plane and what is above, both closed; None where the plane makes no clean section."""
-    near = 1e-6 * float(np.linalg.norm(np.ptp(mesh_arrays.basis_points(mesh), axis=0)))
+    near = 1e-6 * box_diagonal(mesh_arrays.basis_points(mesh))
     with as_bmesh(mesh) as bm:
         bmesh.ops.bisect_plane(bm, geom=[*bm.verts, *bm.edges, *bm.faces], dist=near, plane_co=normal * level,
                                plane_no=normal)

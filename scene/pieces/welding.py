@@ -15,6 +15,7 @@ from ...core.arrays.hashes import hashed_sets
 from ...core.arrays.indexing import inverse
 from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.pairs import distinct_pairs, repeated_in
+from ...core.arrays.vectors import box_diagonal
 from ...core.mesh.borders import GAP
 from ...core.mesh.corners import next_of_owner
 from ..reading import element_layers
@@ -64,7 +65,7 @@ def _differ(whole: Elements, some: np.ndarray, others: np.ndarray) -> np.ndarray
     """Whether vertices differ from others in what they carry, (k,) bool. some, others : (k,) int64."""
     found = np.zeros(len(some), bool)
     points = whole.points
-    slack = GAP * float(np.linalg.norm(np.ptp(points, axis=0)))
+    slack = GAP * box_diagonal(points)
     for name, layer in whole.layers.items():
         if layer.domain != POINT or name == "position" or name.startswith(element_layers.PASSING):
             continue

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.int64 import arange
+from ...core.arrays.vectors import box_diagonal
 from ...core.symmetry.halves import is_one_side
 from .mesh_arrays import basis_points
 from .placing import world_matrix
@@ -37,7 +38,7 @@ def moves_with_its_image(obj: bpy.types.Object, matrix: np.ndarray, offset: np.n
         return True
     flip = np.where(modifier.use_axis, -1.0, 1.0)
     turned = np.abs(matrix - flip[:, None] * matrix * flip).max() / np.linalg.norm(matrix)
-    moved = np.abs(offset - flip * offset).max() / max(np.linalg.norm(np.ptp(basis_points(obj.data), axis=0)), _TINY)
+    moved = np.abs(offset - flip * offset).max() / max(box_diagonal(basis_points(obj.data)), _TINY)
     return modifier.mirror_object is None and bool(max(turned, moved) <= _ROUNDING)
 
 

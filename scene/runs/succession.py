@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.arrays.int64 import arange
 from ...core.arrays.pairs import are_among
-from ...core.arrays.vectors import middles_of_each
+from ...core.arrays.vectors import box_diagonal, middles_of_each
 from ...core.mesh.labels import majority
 from ...core.parameters import Parameters
 from ...core.result.decomposition import Decomposition
@@ -96,7 +96,7 @@ def _at_places(mesh: bpy.types.Mesh, decomposition: Decomposition) -> np.ndarray
     now = middles_of_each(parts.labels, center, area + 1e-300, parts.count)[1]
     before = np.array([part.middle[:] for part in listed])
     distance, place = nearest(search_tree(before), now)
-    near = distance < BESIDE * np.linalg.norm(np.ptp(center, axis=0))
+    near = distance < BESIDE * box_diagonal(center)
     mutual = nearest(search_tree(now), before)[1][place] == arange(parts.count)
     numbers = np.array([part.number for part in listed])[place]
     return np.where(near & mutual, numbers, 0)[parts.candidate_part]

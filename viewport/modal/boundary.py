@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ...core.arrays.vectors import box_diagonal
 from ...core.sentence import Count
 from ...scene import bridge
 from ...scene.changes import face_edits, pins
@@ -55,7 +56,7 @@ class Boundary:
         self.pairs, self.edges, self.ends = pairs, edges, table.edges  # (e, 2) faces that meet, and (e,) at which edges
         self.center = bridge.face_centers(obj)
         length = np.linalg.norm(self.center[pairs[:, 0]] - self.center[pairs[:, 1]], axis=1)
-        size = float(np.linalg.norm(np.ptp(self.center, axis=0)))
+        size = box_diagonal(self.center)
         if not size:  # a scale of 0, at a frame before the object appears
             raise SceneError(rpt_("All {n} faces have zero area. Check the scale of the object.").format(
                 n=len(self.center)))

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered
-from ...arrays.vectors import cross_in_plane
+from ...arrays.vectors import box_diagonal, cross_in_plane
 from .surfaces import over_a_plane
 
 # A rim within another one may be so far off its plane, or off what is nearest of it where that is bent, too, as a share
@@ -65,7 +65,7 @@ def walk_round(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 
 def _nested(points: np.ndarray, rims: list[np.ndarray]) -> list[list[np.ndarray]]:
     """Rims with those that lie within them."""
-    size = [float(np.linalg.norm(np.ptp(points[rim], axis=0))) for rim in rims]
+    size = [box_diagonal(points[rim]) for rim in rims]
     within: dict[int, list[int]] = {}
     for inner in range(len(rims)):
         around = [outer for outer in range(len(rims)) if size[outer] > size[inner]

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...arrays.hashes import hashed_sets
 from ...arrays.int64 import arange, full
+from ...arrays.vectors import box_diagonal
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane
 
@@ -46,7 +47,7 @@ def image_corners(
     fits = (side[labels] == -1) & (face_twin >= 0) & (total == total[face_twin])
     corner = np.flatnonzero(fits[corner_face])
     wanted, twin = plane.mirrored(points[corner]), face_twin[corner_face[corner]]
-    nearest = np.full(len(corner), _EXACT * np.linalg.norm(np.ptp(points, axis=0)) if len(points) else 0.0)
+    nearest = np.full(len(corner), _EXACT * box_diagonal(points) if len(points) else 0.0)
     for step in range(int(total[fits].max(initial=0))):
         there = np.flatnonzero(step < total[twin])
         other = first[twin[there]] + step

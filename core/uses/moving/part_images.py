@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.int64 import arange
-from ...arrays.vectors import middles_of_each
+from ...arrays.vectors import box_diagonal, middles_of_each
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane
 
@@ -54,7 +54,7 @@ class PartImages:
         """
         if mirror is not None:
             middle, mean = middles(table, labels, face_weights(area))
-            size, there = float(np.linalg.norm(np.ptp(mean[~ground[labels]], axis=0))), np.maximum(twin, 0)
+            size, there = box_diagonal(mean[~ground[labels]]), np.maximum(twin, 0)
             off = np.linalg.norm(mirror.mirrored(middle) - middle[there], axis=1)
             twin = np.where((twin >= 0) & (np.maximum(off, off[there]) <= _ALMOST * size), twin, -1)
         images = cls(twin, mirror)

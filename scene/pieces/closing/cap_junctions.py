@@ -15,7 +15,7 @@ from ....core.arrays.components import components
 from ....core.arrays.indexing import renumbered, sums_by
 from ....core.arrays.int64 import arange, cumsum
 from ....core.arrays.ties import rounded
-from ....core.arrays.vectors import distances_between, lengths
+from ....core.arrays.vectors import box_diagonal, distances_between, lengths
 from ....core.uses.caps.networks import nested_sides, own_places
 from ....core.uses.caps.surfaces import common_order
 from .body_surface import crossing, search_tree
@@ -294,14 +294,14 @@ def _middles(starts: np.ndarray, mean: np.ndarray, body: BodySurface, side: floa
     on, normal = body.nearest(mean[None])
     origins = np.concatenate([on, starts])
     inwards = -side * np.concatenate([normal, body.vertex_normals[body.own]])
-    room = body.free_way(origins, inwards, 1e-4 * float(np.linalg.norm(np.ptp(body.points, axis=0))))
+    room = body.free_way(origins, inwards, 1e-4 * box_diagonal(body.points))
     known = np.isfinite(room)
     places = (origins + 0.5 * np.where(known, room, 0.0)[:, None] * inwards)[known]
     if not len(places):
         return [mean]
     seen = np.array([_sees(starts, np.broadcast_to(place, starts.shape), body) for place in places])
     order = np.lexsort((-rounded(lengths(places - mean)), -seen.sum(axis=1))).tolist()
-    found, least = [mean, places[0], places[order[0]]], _APART * float(np.linalg.norm(np.ptp(starts, axis=0)))
+    found, least = [mean, places[0], places[order[0]]], _APART * box_diagonal(starts)
     for index in order:
         if len(found) < _MIDDLES and lengths(places[index] - found[1:]).min() > least:
             found.append(places[index])

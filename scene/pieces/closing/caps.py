@@ -13,6 +13,7 @@ from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils.geometry import tessellate_polygon
 
 from ....core.arrays.int64 import arange
+from ....core.arrays.vectors import box_diagonal
 from ....core.uses.caps.surfaces import common_order
 from ...reading import mesh_arrays, mesh_groups
 from ...reading.matrix_layers import as_bmesh
@@ -254,7 +255,7 @@ def _spokes(points: np.ndarray) -> np.ndarray:
 def _is_flat(points: np.ndarray) -> bool:
     normal = _spokes(points).sum(axis=0)
     height = (points - points[0]) @ normal
-    return np.ptp(height) <= _FLAT * np.linalg.norm(normal) * np.linalg.norm(np.ptp(points, axis=0))
+    return np.ptp(height) <= _FLAT * np.linalg.norm(normal) * box_diagonal(points)
 
 
 def _is_star(points: np.ndarray) -> bool:

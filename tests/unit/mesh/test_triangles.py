@@ -108,6 +108,11 @@ def test_areas_and_normals_of_a_box_by_hand():
     np.testing.assert_allclose(np.sort(np.abs(mesh.face_normals), axis=1), [(0, 0, 1)] * 12)
 
 
+def test_the_diagonal_is_that_of_what_has_a_face():
+    vertices = np.array([(0, 0, 0), (2, 0, 0), (0, 3, 0), (0, 0, 6), (-100, 5, 5)], float)
+    assert TriMesh(vertices, [(0, 1, 2), (1, 3, 2)]).diagonal == 7  # 4 + 9 + 36 is the square
+
+
 def test_dihedral_angles_of_a_box_are_right_angles_or_flat():
     mesh = TriMesh(*shapes.box())
     angles = np.sort(mesh.dihedral)
