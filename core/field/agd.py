@@ -181,8 +181,6 @@ def equalize(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     equalized : (n,) float64
         Strictly monotone in ``values``, 0 at value 0 and 1 at value 1; 0 everywhere if all values are 0.
     """
-    if values.max() <= 0:
-        return np.zeros_like(values)
     counts, edges = np.histogram(values, bins=HISTOGRAM_BINS, range=(0.0, 1.0), weights=weights)
     # An empty bin gets a millionth of the area, so that values within it keep their order.
     counts = counts + 1e-6 * weights.sum()

@@ -87,9 +87,7 @@ def _shortest_of(rows: np.ndarray, columns: np.ndarray, length: np.ndarray, n: i
     key = key[order]
     first = run_starts(key)
     low, high = np.divmod(key[first], n)
-    apart = low != high
-    shortest = np.minimum.reduceat(length[order], first)
-    return symmetric_matrix(np.stack([low[apart], high[apart]], axis=1), shortest[apart], n)
+    return symmetric_matrix(np.stack([low, high], axis=1), np.minimum.reduceat(length[order], first), n)
 
 
 def _unfolded_lines(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

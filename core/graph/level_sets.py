@@ -149,13 +149,10 @@ class LevelSets:
         Returns
         -------
         share : float64, shape of ``edge``
-            Position of the crossing, 0..1 from the first vertex of the edge to the second; 0.5 on an edge along
-            which the field does not change.
+            Position of the crossing, 0..1 from the first vertex of the edge to the second.
         """
         low, high = (self.values.take(end.take(edge)) for end in self.mesh.edges.vertices.T)
-        rise = high - low
-        share = np.divide(self.levels.take(level) - low, rise, out=np.full(rise.shape, 0.5), where=rise != 0)
-        return np.clip(share, 0.0, 1.0, out=share)
+        return (self.levels.take(level) - low) / (high - low)
 
     @cached_property
     def segment_points(self) -> np.ndarray:
@@ -321,4 +318,4 @@ def _share_below(low: np.ndarray, middle: np.ndarray, high: np.ndarray, level: n
     with np.errstate(divide="ignore", invalid="ignore"):
         rising = (level - low) ** 2 / ((middle - low) * (high - low))
         falling = 1.0 - (high - level) ** 2 / ((high - low) * (high - middle))
-    return np.clip(np.where(level <= middle, rising, falling), 0.0, 1.0)
+    return np.where(level <= middle, rising, falling)

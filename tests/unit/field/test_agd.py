@@ -174,7 +174,7 @@ def test_there_are_no_more_base_vertices_than_twice_what_the_area_asks_for():
     """Of a narrow ribbon, along which as many would fit as it is radii long."""
     ribbon = shapes.flat_grid(400, 1)
     base, radius = base_of(TriMesh(ribbon.vertices * (1, 0.01, 1), ribbon.faces))
-    assert len(base.indices) <= np.ceil(2 * 400 * 0.01 / (1.5 * radius**2))
+    assert len(base.indices) == np.ceil(2 * 400 * 0.01 / (1.5 * radius**2))
 
 
 @pytest.mark.parametrize(("stretch", "protrudes"), [(1.0, False), (1.3, True)])
@@ -183,6 +183,35 @@ def test_where_nothing_protrudes_the_field_is_flat(stretch, protrudes):
     field = protrusion_field(Pyramid(TriMesh(ball.vertices * (1, 1, stretch), ball.faces)), 0.005, True)
     assert field.values.any() == field.normalized.any() == protrudes
     assert field.agd.min() > 0
+
+
+def test_the_field_is_flat_where_its_range_is_below_three_percent_of_the_largest_distance():
+    ball, protrudes = shapes.icosphere(2), {}
+    for stretch in np.linspace(1.0, 1.06, 21):
+        field = protrusion_field(Pyramid(TriMesh(ball.vertices * (1, 1, stretch), ball.faces)), 0.02, True)
+        protrudes[np.ptp(field.agd) / field.agd.max()] = field.values.any()
+    assert all(found == (share >= 0.03) for share, found in protrudes.items())
+    assert max(share for share in protrudes if share < 0.03) > 0.028
+    assert min(share for share in protrudes if share >= 0.03) < 0.036
+
+
+def test_paths_are_searched_on_the_mesh_itself_up_to_the_largest_number_of_vertices():
+    grid = shapes.flat_grid(49, 99)
+    mesh = TriMesh(*grid)
+    assert mesh.n_vertices == FIELD_VERTICES
+    base = spread_base_vertices(mesh, GeodesicSolver(mesh), mesh.vertex_area, 20.0)
+    np.testing.assert_array_equal(coarse_agd(Pyramid(mesh), 20.0), average_geodesic_distance(base))
+
+
+def test_values_that_differ_by_a_millionth_are_equal_but_for_rounding():
+    assert normalize(np.array([1 - 0.9e-6, 1.0])).tolist() == [0, 0]
+    assert normalize(np.array([1 - 1.1e-6, 1.0])).tolist() == [0, 1]
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1e12])
+def test_equalizing_does_not_depend_on_the_unit_of_areas(unit):
+    values, weights = np.linspace(0, 1, 50) ** 3, np.linspace(1, 2, 50)
+    np.testing.assert_allclose(equalize(values, unit * weights), equalize(values, weights), rtol=1e-9)
 
 
 def test_equalized_values_keep_their_order_where_no_area_lies_between():

@@ -50,6 +50,43 @@ def test_folding_changes_no_distance():
         np.testing.assert_allclose(*(GeodesicSolver(mesh).distances(source) for mesh in (folded, flat)))
 
 
+def beyond_two_edges(degrees):
+    """A triangle that is so wide at vertex 0, two more behind it, and the corner of the last amid what 0 sees."""
+    angle = np.deg2rad(degrees)
+    right, left = np.array([1.0, 0.0]), 6 * np.array([np.cos(angle), np.sin(angle)])
+    out = np.array([left[1], 1 - left[0]]) / np.linalg.norm(left - right)
+    beside = right + 3 * (left - right) + 0.5 * out  # to the left of what 0 sees, just beyond the edge
+    middle = 20 * np.array([np.cos(angle / 2), np.sin(angle / 2)])
+    vertices = np.column_stack([[(0, 0), right, left, beside, middle], np.zeros(5)])
+    return vertices, np.array([(0, 1, 2), (2, 1, 3), (1, 4, 3)])
+
+
+@pytest.mark.parametrize(("degrees", "sees"), [(59, False), (60, False), (61, True), (75, True)])
+@pytest.mark.parametrize("seed", range(4))
+def test_windows_are_followed_while_they_are_wider_than_sixty_degrees(degrees, sees, seed):
+    vertices, faces = beyond_two_edges(degrees)
+    turned = vertices @ shapes.rotation(np.random.default_rng(seed)).T
+    source, target, length = lines_in_sight(TriMesh(turned, faces))
+    found = source == 0
+    assert target[found].tolist() == [4] * sees
+    assert length[found] == pytest.approx([20.0] * sees)
+
+
+def test_lines_cross_at_most_twelve_triangles():
+    """A road that the vertex at its end sees along for ever: between far rails, with a sleeper at every step."""
+    n = 20
+    rail = 0.1 + 0.1 * np.arange(n)
+    vertices = np.concatenate([[(0.0, 0.0, 0.0)], *([(10.0, y, 0.0), (-10.0, y, 0.0)] for y in rail)])
+    right, left = 1 + 2 * np.arange(n), 2 + 2 * np.arange(n)
+    faces = np.concatenate([[(0, 1, 2)], np.stack([left[:-1], right[:-1], right[1:]], axis=1),
+                            np.stack([left[:-1], right[1:], left[1:]], axis=1)])
+    source, target, length = lines_in_sight(TriMesh(vertices, faces))
+    found = source == 0
+    # The corner of the first triangle behind is across one edge; of twelve triangles eleven more come into sight.
+    assert np.sort(target[found]).tolist() == list(range(4, 15))
+    np.testing.assert_allclose(length[found], np.linalg.norm(vertices[target[found]], axis=1))
+
+
 def test_even_triangles_need_no_more_lines():
     vertices, faces = shapes.flat_grid(8, 8)
     x, y, z = vertices.T

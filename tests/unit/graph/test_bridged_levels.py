@@ -33,6 +33,10 @@ def test_of_two_runs_the_one_with_more_bridges_joins():
     assert (pieces.tolist(), contours.tolist()) == ([[0, 5]], [])
 
 
+def test_of_two_runs_with_as_many_bridges_the_lower_one_joins():
+    assert joined_runs(across(1, 3), CHAINS, CHAIN)[0].tolist() == [[1, 6]]
+
+
 def test_of_three_loose_parts_in_a_ring_two_pairs_join_those_with_most_bridges():
     bridges = np.array([(0, 1), (0, 1), (1, 2), (0, 2), (0, 2), (0, 2)])
     pieces, contours = joined_runs(bridges, np.empty((0, 2), np.int64), np.arange(3))
@@ -118,6 +122,17 @@ def test_in_blocks_the_same_is_joined_as_all_at_once(most, monkeypatch):
     sets = cut_at_levels(mesh, values, uniform_levels(30), bridges)
     for name in ("element_piece", "segment_contour", "contour_pieces"):
         np.testing.assert_array_equal(getattr(sets, name), getattr(whole, name))
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_the_heaviest_forest_is_found_whatever_the_pairs_may_weigh_at_the_most(seed, monkeypatch):
+    """Of six parts with few different weights, so that often the order of the pairs decides, looked at two by two."""
+    monkeypatch.setattr(bridged_levels, "MAX_LINKS", 2)
+    rng = np.random.default_rng(seed)
+    cells = np.stack(np.triu_indices(6, 1), axis=1)
+    weight = rng.integers(1, 4, len(cells)).astype(float)
+    found = bridged_levels._heaviest_forest(cells, weight + rng.integers(0, 3, len(cells)), lambda rows: weight[rows])
+    assert found.tolist() == np.flatnonzero(bridged_levels._forest(cells, weight)).tolist()
 
 
 def test_two_that_others_have_joined_are_not_looked_at(monkeypatch):

@@ -10,7 +10,7 @@ from core.arrays.components import components
 from core.field.agd import ScalarField
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_graph, reeb_topology
-from core.graph.simplify import _WorkGraph, level_height, simplify
+from core.graph.simplify import _WorkGraph, level_height, simplify, without_ripples
 from core.mesh.triangles import TriMesh
 
 
@@ -203,12 +203,32 @@ def test_a_leaf_just_as_large_as_the_limit_stays():
     assert len(simplify(sets, topology, 0.126, 0, counted(sets)).arcs) < len(topology.arcs)
 
 
+@pytest.mark.parametrize("upside_down", [False, True])
 @pytest.mark.parametrize("seed", range(4))
-def test_a_node_that_took_in_a_leaf_stays_between_its_arcs(seed):
+def test_a_node_that_took_in_a_leaf_stays_between_its_arcs(seed, upside_down):
     """The leaf may reach above the arc that goes on from the node, and the node's value be that of its saddle there."""
     sets = noisy(1, seed, noise=0.6)
+    sets = cut_at_levels(sets.mesh, 1 - sets.values, sets.levels) if upside_down else sets
     graph = reeb_graph(sets, simplify(sets, reeb_topology(sets), 0.02 * sets.mesh.area, 0.05, counted(sets)))
     lower, upper = graph.node_value[graph.arcs].T
     first, last = graph.point_value[graph.arc_points[:-1]], graph.point_value[graph.arc_points[1:] - 1]
     assert (lower <= first).all()
     assert (last <= upper).all()
+
+
+@pytest.mark.parametrize(("share", "flatness", "n_nodes"), [
+    (0.0026, 0.0052, 3), (0.0024, 0.0052, 2), (0.0026, 0.0048, 2), (0.5, 0.0048, 2)])
+def test_a_ripple_is_smaller_than_a_quarter_of_a_percent_or_flatter_than_half_a_percent(share, flatness, n_nodes):
+    """A strip that rises to a hill and falls on its other side. What lies below its one level has half of each side."""
+    places = np.array([0, 2 * share, 1])
+    mesh = TriMesh(np.column_stack([np.repeat(places, 2), [0, 1] * 3, np.zeros(6)]), shapes.flat_grid(2, 1).faces)
+    values = np.repeat([0.0, 1.0, 0.0], 2)
+    field = ScalarField(values, values, 1 - 2 * flatness * (1 - values))
+    sets = cut_at_levels(mesh, values, np.array([0.5]))
+    assert without_ripples(sets, reeb_topology(sets), field).n_nodes == n_nodes
+
+
+def test_a_leaf_just_as_high_as_the_limit_stays():
+    sets = strip([0, 1, 0, 1, 0])
+    topology = reeb_topology(sets)
+    assert simplify(sets, topology, 0, 1.0, counted(sets)).n_nodes == topology.n_nodes
