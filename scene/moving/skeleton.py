@@ -125,17 +125,17 @@ def _surface(obj: bpy.types.Object, shape: bridge.Shape, parts: Parts, whole: Wh
     graph, plane, area = parts.decomposition.graph, parts.decomposition.plane, shape.face_area
     ground = grounds_among(parts.labels, shape.is_ground if whole is None else np.tile(shape.is_ground, 2))
     back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(obj.data))  # from the coordinates of the result
+    line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
+    on_line = line, np.concatenate([parts.point_part, parts.node_part])
+    height = np.nan_to_num(parts.decomposition.field)
     if whole is None:
         table = mesh_arrays.corner_table(obj.data, placing.transformed(mesh_arrays.shown_points(obj), turn))
-        images = PartImages.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
-                                     parts.labels, area, ground)
-    else:
-        rigid, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), np.tile(area, 2)
-        table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
-        images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
-    line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
-    return BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
-                       np.concatenate([parts.point_part, parts.node_part]), images, ground)
+        surface = BoneSurface(table, parts.labels, area, height, *on_line, ground=ground)
+        return surface.with_images(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]))
+    rigid = turn[:3, :3] @ bridge.unstretch(shape.stretch)
+    table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
+    images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
+    return BoneSurface(table, parts.labels, np.tile(area, 2), height, *on_line, images, ground)
 
 
 def _names(mesh: bpy.types.Mesh, numbered: NumberedParts, whole: Whole | None, bone_part: np.ndarray) -> list[str]:

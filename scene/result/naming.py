@@ -41,9 +41,7 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
         turn = world[:3, :3] @ bridge.unstretch(shape.stretch)
         parts, area, is_ground = whole.parts, np.tile(shape.face_area, 2), np.tile(shape.is_ground, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ turn.T + world[:3, 3])
-    shapes = Shapes.of(parts, is_ground, table.face_means(table.vertices), area, table.vertices[table.corner_vertex],
-                       table.corner_face, turn)
-    names = [_spoken(suggestion) for suggestion in suggestions(shapes)]
+    names = [_spoken(suggestion) for suggestion in suggestions(Shapes.of(parts, table, area, is_ground, turn))]
     return dict(zip(numbered.numbers.tolist(), names[: numbered.parts.count], strict=True))
 
 

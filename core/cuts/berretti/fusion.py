@@ -87,37 +87,62 @@ class FusionGraph:
         -----
         The bridges of a graph, by one depth-first search [Tarjan1974]: O(regions + boundaries).
         """
-        place: dict[int, int] = {}  # of each region in the search
-        earliest: dict[int, int] = {}  # least place of what it touches, or what follows from it
-        beyond: dict[int, float] = {}  # area of it and of what follows from it
-        found = {}
+        search, found = _DepthFirst(self), {}
         for root in sorted(self.alive):
-            trail = [] if root in place else [(root, self._visit(root, place, earliest, beyond))]
-            ends = []
-            while trail:
-                region, ahead = trail[-1]
-                other = next(ahead, None)
-                before = trail[-2][0] if len(trail) > 1 else -1
-                if other is None:
-                    trail.pop()
-                    if before >= 0:
-                        earliest[before] = min(earliest[before], earliest[region])
-                        beyond[before] += beyond[region]
-                        if earliest[region] > place[before] and self.contours[before][region][0] == 1:
-                            ends.append((before, region))
-                elif other not in place:
-                    trail.append((other, self._visit(other, place, earliest, beyond)))
-                elif other != before:
-                    earliest[region] = min(earliest[region], place[other])
-            for before, region in ends:
-                found[min(before, region), max(before, region)] = min(beyond[region], beyond[root] - beyond[region])
+            if root in search.place:
+                continue
+            for before, region in search.bridges_from(root):
+                beyond = search.beyond[region]
+                found[min(before, region), max(before, region)] = min(beyond, search.beyond[root] - beyond)
         return found
 
-    def _visit(self, region: int, place: dict, earliest: dict, beyond: dict) -> Iterator[int]:
-        """Enter a region into the tables of ``bridges``; returns its neighbors in order."""
-        place[region] = earliest[region] = len(place)
-        beyond[region] = self.area[region]
-        return iter(sorted(self.neighbors[region]))
+
+class _DepthFirst:
+    """A depth-first search through a graph of regions [Tarjan1974].
+
+    Attributes
+    ----------
+    place : dict of int -> int
+        Place of each region in the order in which they are reached.
+    earliest : dict of int -> int
+        For each region the least place of what it touches, or what was reached from it, itself included.
+    beyond : dict of int -> float
+        Area of each region and of what was reached from it.
+    """
+
+    def __init__(self, graph: FusionGraph) -> None:
+        self._graph = graph
+        self.place: dict[int, int] = {}
+        self.earliest: dict[int, int] = {}
+        self.beyond: dict[int, float] = {}
+
+    def bridges_from(self, root: int) -> list[tuple[int, int]]:
+        """Reach all that hangs together with a region; each bridge there, the region reached before the other first."""
+        bridges, trail = [], [(root, -1, self._reach(root))]
+        while trail:
+            region, before, ahead = trail[-1]
+            other = next(ahead, None)
+            if other is None:
+                trail.pop()
+                if before >= 0 and self._leave(region, before):
+                    bridges.append((before, region))
+            elif other not in self.place:
+                trail.append((other, region, self._reach(other)))
+            elif other != before:
+                self.earliest[region] = min(self.earliest[region], self.place[other])
+        return bridges
+
+    def _reach(self, region: int) -> Iterator[int]:
+        """Enter a region; returns its neighbors in order."""
+        self.place[region] = self.earliest[region] = len(self.place)
+        self.beyond[region] = self._graph.area[region]
+        return iter(sorted(self._graph.neighbors[region]))
+
+    def _leave(self, region: int, before: int) -> bool:
+        """Go back to the region before; whether a single contour between the two is all that joins their sides."""
+        self.earliest[before] = min(self.earliest[before], self.earliest[region])
+        self.beyond[before] += self.beyond[region]
+        return self.earliest[region] > self.place[before] and self._graph.contours[before][region][0] == 1
 
 
 def fuse_small(

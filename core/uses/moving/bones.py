@@ -9,8 +9,10 @@ import numpy as np
 
 from ...arrays.int64 import arange
 from ...arrays.pairs import distinct_pairs
+from ...arrays.vectors import box_diagonal
 from ...mesh.corners import CornerTable
 from ...mesh.cut_edges import CutEdges
+from ...symmetry.plane import MirrorPlane
 from .bone_trees import even_tree, following, part_tree
 from .groups import off_ground, touching_groups
 from .part_images import PartImages, face_weights, middles
@@ -99,6 +101,12 @@ class BoneSurface:
     def off_ground(self) -> CornerTable:
         """The table of all that is no ground, see the function."""
         return off_ground(self.table, self.labels, self.grounds)
+
+    def with_images(self, twin: np.ndarray, mirror: MirrorPlane | None) -> BoneSurface:
+        """The surface with its parts' images, see ``PartImages.of_parts``; twin : (count,) int64, as of ``Parts``."""
+        middle, center = middles(self.table, self.labels, face_weights(self.area))
+        size = box_diagonal(center[~self.grounds[self.labels]])
+        return replace(self, images=PartImages.of_parts(twin, mirror, middle, size))
 
     def joined(self) -> BoneSurface:
         """The surface on vertices of which no two, as files split them, are at one place."""

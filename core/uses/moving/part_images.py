@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays.int64 import arange
-from ...arrays.vectors import box_diagonal, middles_of_each
+from ...arrays.vectors import middles_of_each
 from ...mesh.corners import CornerTable
 from ...symmetry.plane import MirrorPlane
 
@@ -35,8 +35,9 @@ class PartImages:
     mirror: MirrorPlane | None
 
     @classmethod
-    def of_parts(cls, twin: np.ndarray, mirror: MirrorPlane | None, table: CornerTable, labels: np.ndarray,
-                 area: np.ndarray, ground: np.ndarray) -> PartImages | None:
+    def of_parts(
+        cls, twin: np.ndarray, mirror: MirrorPlane | None, middle: np.ndarray, size: float
+    ) -> PartImages | None:
         """The parts of a mesh that is its own mirror image, or almost: what was posed beside a plane has no images.
 
         Parameters
@@ -44,8 +45,10 @@ class PartImages:
         twin : (count,) int64
             As of ``Parts``.
         mirror : MirrorPlane or None
-        table, labels, area, ground
-            As of ``BoneSurface``.
+        middle : (count, 3) float64
+            Middle of the surface of each part.
+        size : float
+            Diagonal of the centers of all faces but those of grounds.
 
         Returns
         -------
@@ -53,8 +56,7 @@ class PartImages:
             None if no part is its own image: one of two sides, on which nothing is between them, is the root.
         """
         if mirror is not None:
-            middle, mean = middles(table, labels, face_weights(area))
-            size, there = box_diagonal(mean[~ground[labels]]), np.maximum(twin, 0)
+            there = np.maximum(twin, 0)
             off = np.linalg.norm(mirror.mirrored(middle) - middle[there], axis=1)
             twin = np.where((twin >= 0) & (np.maximum(off, off[there]) <= _ALMOST * size), twin, -1)
         images = cls(twin, mirror)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...arrays.indexing import bounds_of_each
 from ...arrays.vectors import middles_of_each, second_moments_of_each
+from ...mesh.corners import CornerTable
 from ...mesh.grounds import grounds_among
 from ...result.parts import Parts
 from .touching import LOOSE, Touching
@@ -62,21 +63,22 @@ class Shapes:
     others: tuple[Shapes, ...] = ()
 
     @classmethod
-    def of(cls, parts: Parts, is_ground: np.ndarray, center: np.ndarray, area: np.ndarray, points: np.ndarray,
-           point_face: np.ndarray, turn: np.ndarray) -> Shapes:
+    def of(
+        cls, parts: Parts, table: CornerTable, area: np.ndarray, is_ground: np.ndarray, turn: np.ndarray
+    ) -> Shapes:
         """Measure parts.
 
         Parameters
         ----------
         parts : Parts
             Of p faces.
+        table : CornerTable
+            The p faces, in the world.
+        area : (p,) float64
+            Of the faces.
         is_ground : (p,) bool
             Which faces are those of a floor or the like. A part of these alone is no part of what stands there, unless
             all are.
-        center, area : (p, 3) and (p,) float64
-            Of the faces, in the world.
-        points, point_face : (c, 3) float64 and (c,) int64
-            The corners of all faces, and the face of each.
         turn : (3, 3) float64
             Takes directions of the decomposition to those of the world.
 
@@ -90,27 +92,26 @@ class Shapes:
         known = np.linalg.norm(normal[:2]) > _LEVEL * np.linalg.norm(normal)
         weight = area + 1e-12 * area.sum() + 1e-300
         ground = grounds_among(parts.labels, is_ground)
-        faces = Touching(parts, ground), center, weight, points, point_face
-        found = cls._turned(*faces, _onto_axis(normal[:2]) if known else np.eye(3))
+        touching = Touching(parts, ground)
+        found = cls._turned(touching, table, weight, _onto_axis(normal[:2]) if known else np.eye(3))
         found = replace(found, across=int(abs(normal[1]) > abs(normal[0])))
         if normal.any():  # if it is not level, a creature lies on its side
             return found
         others = [replace(found, across=1 - found.across)]
         stands = ~ground[parts.labels]
-        if len(longest := _longest(center[stands], weight[stands])):
-            along = cls._turned(*faces, _onto_axis(longest))
+        if len(longest := _longest(table.face_means(table.vertices)[stands], weight[stands])):
+            along = cls._turned(touching, table, weight, _onto_axis(longest))
             others += [replace(found, low=along.low, high=along.high, middle=along.middle, across=axis)
                        for axis in (0, 1)]
         return replace(found, others=tuple(others))
 
     @classmethod
-    def _turned(cls, touching: Touching, center: np.ndarray, weight: np.ndarray, points: np.ndarray,
-                point_face: np.ndarray, turn: np.ndarray) -> Shapes:
-        """Measure parts once they are turned."""
-        parts = touching.parts
-        labels, count, center, points = parts.labels, parts.count, center @ turn.T, points @ turn.T
+    def _turned(cls, touching: Touching, table: CornerTable, weight: np.ndarray, turn: np.ndarray) -> Shapes:
+        """Measure parts once they are turned. weight : (p,), of the faces. turn : (3, 3)."""
+        labels, count = touching.parts.labels, touching.parts.count
+        center = table.face_means(table.vertices) @ turn.T
         total, middle = middles_of_each(labels, center, weight, count)
-        low, high = bounds_of_each(labels[point_face], points, count)
+        low, high = bounds_of_each(labels[table.corner_face], table.vertices[table.corner_vertex] @ turn.T, count)
         offset = center - middle[labels]
         spread = second_moments_of_each(labels, offset, weight, count) / total[:, None, None]
         length = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, ::-1], 0.0))

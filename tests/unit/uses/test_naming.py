@@ -11,6 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from core import decompose
+from core.mesh.corners import CornerTable
 from core.mesh.grounds import are_ground
 from core.mesh.polygons import PolygonMesh
 from core.uses.naming.method import Suggestion, suggestions
@@ -24,10 +25,10 @@ def named(vertices, faces, result=None, turn=None, **level):
     """Suggestions for the parts of triangles, by label; turn : (3, 3), of the model once it is decomposed."""
     parts = (result or decompose(vertices, faces)).parts(**level)
     turn = np.eye(3) if turn is None else turn
-    corner = (vertices @ turn.T)[faces]
+    table = CornerTable.of(vertices @ turn.T, faces)
+    corner = table.vertices[faces]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1) / 2
-    face, is_ground = np.repeat(np.arange(len(faces)), 3), are_ground(PolygonMesh.of(vertices, faces))
-    return suggestions(Shapes.of(parts, is_ground, corner.mean(axis=1), area, corner.reshape(-1, 3), face, turn))
+    return suggestions(Shapes.of(parts, table, area, are_ground(PolygonMesh.of(vertices, faces)), turn))
 
 
 @pytest.fixture(scope="module")

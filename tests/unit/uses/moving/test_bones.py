@@ -270,8 +270,10 @@ def test_a_part_that_was_posed_has_no_image():
         (0, 0, 0), (3, 0, 0), (-3, 0, 0), (5, 0, 0), (-5, 0, 2)))))
     labels, twin = np.repeat(np.arange(5), 12), np.array([0, 2, 1, 4, 3])
     plane = MirrorPlane(np.array([1.0, 0, 0]), 0.0)
-    images = PartImages.of_parts(twin, plane, table, labels, np.ones(60), np.zeros(5, bool))
+    surface = BoneSurface(table, labels, np.ones(60), np.zeros(len(table.vertices)), np.empty((0, 3)),
+                          np.empty(0, np.int64))
+    images = surface.with_images(twin, plane).images
     assert images.twin.tolist() == [0, 2, 1, -1, -1]
     assert images.first.tolist() == [0, 1, 1, 3, 4]
     beside = np.where(twin == 0, -1, twin)
-    assert PartImages.of_parts(beside, plane, table, labels, np.ones(60), np.zeros(5, bool)) is None
+    assert surface.with_images(beside, plane).images is None
