@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from .mesh.polygons import PolygonMesh
 from .parameters import BERRETTI, TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
-from .result.component_results import ComponentResult
+from .result.component_results import ComponentResult, Findings
 from .result.decomposition import Decomposition
 from .result.half import of_half
 from .result.on_ground import with_grounds
@@ -141,16 +141,22 @@ def decompose(
             # From here on the unsorted mesh and its tables are free.
             given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)
             hint = hint[ordering.polygon] if len(hint) else hint
-        result = _decomposed(given, ordering, hint, parameters, watch, model, join_model)
+        result = _decomposed(given, ordering, hint, parameters, watch, _Models(model, join_model))
     else:
         whole = completed(given, plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent]))
         result = of_half(of_another(whole.vertices, whole.triangles, whole.polygon, np.tile(hint, 2)), given)
     return result.with_copies(copies, area) if copies else result
 
 
+class _Models(NamedTuple):
+    """What judges cuts, and which parts of different pieces belong together; None for those that ship."""
+
+    cuts: BoostedTrees | None
+    joins: JoinModel | None
+
+
 def _decomposed(
-    given: PolygonMesh, ordering: Ordering, hint: np.ndarray, parameters: Parameters, watch: Stopwatch,
-    model: BoostedTrees | None, join_model: JoinModel | None,
+    given: PolygonMesh, ordering: Ordering, hint: np.ndarray, parameters: Parameters, watch: Stopwatch, models: _Models
 ) -> Decomposition:
     """The result for a sorted mesh without copies; hint : (p,) int64 or (0,). All else is as in ``decompose``."""
     with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
@@ -159,9 +165,10 @@ def _decomposed(
         found = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
     # Planes of symmetry follow from the mesh alone, and are not asked for before the end.
     mirrors = meanwhile(_mirrors, working, found.decomposed, given.n_polygons, parameters)
-    results = _on_bodies(found.decomposed, parameters, watch, model, join_model)
+    results = _on_bodies(found.decomposed, parameters, watch, models)
     with watch.stage("parts", 1.0):
-        result = assemble(given, working, found, results, mirrors(), parameters, watch.seconds, hint)
+        findings = Findings(given, working, found, results)
+        result = assemble(findings, mirrors(), parameters, watch.seconds, hint)
         result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result
@@ -175,17 +182,16 @@ def _mirrors(
 
 
 def _on_bodies(
-    chosen: list[Component], parameters: Parameters, watch: Stopwatch, model: BoostedTrees | None,
-    join_model: JoinModel | None,
+    chosen: list[Component], parameters: Parameters, watch: Stopwatch, models: _Models
 ) -> list[ComponentResult]:
     """What is found on each of the bodies, one after the other."""
     results = []
     width = (PARTS_SHARE - MESH_SHARE) / max(len(chosen), 1)
     for done, component in enumerate(chosen):
         watch.share = begin = MESH_SHARE + done * width
-        found = decompose_component(component, parameters, watch, begin, width, model)
+        found = decompose_component(component, parameters, watch, begin, width, models.cuts)
         with watch.stage("cuts", begin + width):
-            results.append(join_pieces(found, parameters, join_model))
+            results.append(join_pieces(found, parameters, models.joins))
     return results
 
 

@@ -29,10 +29,10 @@ from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import LEAST_WEIGHT
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.preparation import Bodies, WorkingMesh
+from ..surface.preparation import WorkingMesh
 from ..symmetry.mirrors import Mirror
 from .bodies import contacts_and_links
-from .component_results import ComponentResult, FoundCandidates
+from .component_results import ComponentResult, Findings, FoundCandidates
 from .decomposition import Decomposition, too_many
 from .junctions import FaceSides, boundaries, junctions
 from .slivers import without_slivers
@@ -41,27 +41,13 @@ from .within_faces import symmetric_within_faces
 
 
 def assemble(
-    given: PolygonMesh,
-    working: WorkingMesh,
-    bodies: Bodies,
-    results: list[ComponentResult],
-    mirrors: list[Mirror],
-    parameters: Parameters,
-    seconds: dict[str, float],
-    hint: np.ndarray,
+    findings: Findings, mirrors: list[Mirror], parameters: Parameters, seconds: dict[str, float], hint: np.ndarray
 ) -> Decomposition:
     """Bring candidates, field and graph back to the caller's faces and vertices.
 
     Parameters
     ----------
-    given : PolygonMesh
-        The caller's mesh.
-    working : WorkingMesh
-        Repaired copy of the caller's mesh.
-    bodies : Bodies
-        Of the copy.
-    results : list of ComponentResult
-        One for each body that was decomposed; every piece of the others becomes one candidate.
+    findings : Findings
     mirrors : list of Mirror
         Planes in which the parts are to be symmetric, as ``find_mirrors`` finds them.
     parameters : Parameters
@@ -74,18 +60,17 @@ def assemble(
     -------
     decomposition : Decomposition
     """
-    candidates = _face_candidates(given, working, bodies, results, mirrors, parameters, hint)
-    tables = tables_of(given, working, candidates)
-    values, notes = _vertex_field(given, working, bodies, results, parameters)
+    working, results = findings.working, findings.results
+    candidates = _face_candidates(findings, mirrors, parameters, hint)
+    tables = tables_of(findings.given, working, candidates)
+    values, notes = _vertex_field(findings, parameters)
     nodes, points = _graph_candidates(results, candidates.label)
-    # All others are links.
-    n_contacts = len(working.stitches) + len(bodies.contacts) + sum(len(r.contacts) for r in results)
     first_shown = candidates.hierarchy.parts_at(Parameters().detail)[candidates.label]
     mirror = Mirror.joined([mirror.parting(first_shown) for mirror in mirrors])
     return Decomposition(
         **tables.attributes(), hierarchy=candidates.hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
-        point_candidate=points, contacts=candidates.contacts, links=candidates.contacts[n_contacts:],
+        point_candidate=points, contacts=candidates.contacts, links=candidates.contacts[len(findings.contacts):],
         mirror=mirror.plane, face_twin=mirror.twin,
         face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
         notes=working.notes + notes + too_many(parameters.n_parts, candidates.hierarchy.n_candidates),
@@ -93,16 +78,16 @@ def assemble(
 
 
 def _face_candidates(
-    given: PolygonMesh, working: WorkingMesh, bodies: Bodies, results: list[ComponentResult], mirrors: list[Mirror],
-    parameters: Parameters, hint: np.ndarray,
+    findings: Findings, mirrors: list[Mirror], parameters: Parameters, hint: np.ndarray
 ) -> FaceCandidates:
     """The candidates of the caller's faces, after all that follows cutting. hint : (p,) int64 or empty."""
+    working, results = findings.working, findings.results
     coarse = [mirror for mirror in mirrors if mirror.within]
     found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
-    graph = face_graph_of(given, working)
-    found = found.with_rest(working, bodies)
-    label = _voted(given, graph, found, results, parameters)
-    contacts = contacts_and_links(working, bodies, results, graph)
+    graph = face_graph_of(findings.given, working)
+    found = found.with_rest(findings)
+    label = _voted(findings, graph, found, parameters)
+    contacts = contacts_and_links(findings, graph)
     candidates = _with_loose_apart(FaceCandidates(graph, contacts, label, found.hierarchy), working)
     if parameters.pieces == TOGETHER:
         candidates = joined_swarms(candidates, working.mesh, working.polygon)
@@ -236,13 +221,10 @@ def _nearest_kept(given: PolygonMesh, kept: np.ndarray, lost: np.ndarray) -> np.
     return np.stack([faces, given.polygon[triangle][np.where(equal, nearest, len(triangle)).min(axis=1)]], axis=1)
 
 
-def _voted(
-    given: PolygonMesh, graph: FaceGraph, found: FoundCandidates, results: list[ComponentResult],
-    parameters: Parameters,
-) -> np.ndarray:
+def _voted(findings: Findings, graph: FaceGraph, found: FoundCandidates, parameters: Parameters) -> np.ndarray:
     """The candidates for which the pieces of the caller's faces vote, (p,) int64, connected; some may have no face."""
-    votes = FaceVotes(found.face, found.label, found.area, given.n_polygons, found.hierarchy)
-    width = _refined_width(given, results)
+    votes = FaceVotes(found.face, found.label, found.area, graph.n_faces, found.hierarchy)
+    width = _refined_width(findings.given, findings.results)
 
     def loss(face: np.ndarray, own: np.ndarray, other: np.ndarray) -> np.ndarray:
         """What it costs a refined face to leave the part that has most of it; other faces may do so for nothing."""
@@ -284,10 +266,9 @@ def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceC
     return replace(candidates, label=name[piece], hierarchy=finer)
 
 
-def _vertex_field(
-    given: PolygonMesh, working: WorkingMesh, bodies: Bodies, results: list[ComponentResult], parameters: Parameters
-) -> tuple[np.ndarray, tuple[Sentence, ...]]:
+def _vertex_field(findings: Findings, parameters: Parameters) -> tuple[np.ndarray, tuple[Sentence, ...]]:
     """Normalized field at the caller's vertices, (n,) float64, and notes about pieces and bodies."""
+    given, working, results = findings.given, findings.working, findings.results
     values = np.full(given.triangles.n_vertices, np.nan)
     values[given.triangles.used] = 0.0  # in components that were not decomposed
     for r in results:
@@ -297,7 +278,7 @@ def _vertex_field(
     n_pieces, piece = working.mesh.face_components
     n_flat = sum(not r.field.values.any() for r in results)
     n_cut = sum(len(np.unique(piece[r.component.faces])) for r in results)
-    n_small = components(n_pieces, *working.polygon_piece[bodies.contacts].T)[0] - n_cut
+    n_small = components(n_pieces, *working.polygon_piece[findings.bodies.contacts].T)[0] - n_cut
     notes = _body_notes if parameters.pieces == TOGETHER else _piece_notes
     if n_pieces == 1:
         return values, (Sentence("Nothing protrudes: the surface is even."),) if n_flat else ()

@@ -9,22 +9,16 @@ from ..arrays.components import components
 from ..arrays.nearest import nearest_larger, nearest_to_middle
 from ..arrays.vectors import middles_of_each
 from ..mesh.face_graph import FaceGraph
-from ..surface.preparation import Bodies, WorkingMesh
-from .component_results import ComponentResult
+from ..surface.preparation import WorkingMesh
+from .component_results import Findings
 
 
-def contacts_and_links(
-    working: WorkingMesh, bodies: Bodies, results: list[ComponentResult], graph: FaceGraph
-) -> np.ndarray:
+def contacts_and_links(findings: Findings, graph: FaceGraph) -> np.ndarray:
     """Find what joins faces that share no edge, so that all of them hang together.
 
     Parameters
     ----------
-    working : WorkingMesh
-    bodies : Bodies
-        Of it.
-    results : list of ComponentResult
-        One for each body that was decomposed, with contacts.
+    findings : Findings
     graph : FaceGraph
         Of the caller's faces.
 
@@ -34,12 +28,12 @@ def contacts_and_links(
         The k contacts, faces of one body that touch; then a face of each body but the largest, and one of the nearest
         of the larger bodies.
     """
-    contacts = np.concatenate([working.stitches, bodies.contacts, *(r.component.polygon[r.contacts] for r in results)])
+    contacts = findings.contacts
     count, piece = graph.pieces
     joined, of_piece = components(count, *piece[contacts].T)
     if joined == 1:
         return contacts
-    return np.concatenate([contacts, links(working, of_piece[piece], joined)])
+    return np.concatenate([contacts, links(findings.working, of_piece[piece], joined)])
 
 
 def links(working: WorkingMesh, body: np.ndarray, count: int) -> np.ndarray:

@@ -16,6 +16,7 @@ from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
 from ..mesh.labels import majority
+from ..mesh.polygons import PolygonMesh
 from ..surface.preparation import Bodies, Component, WorkingMesh
 
 
@@ -57,6 +58,34 @@ class ComponentResult:
 
 
 @dataclass(frozen=True, eq=False)
+class Findings:
+    """Everything that the stages found on a mesh, before it is brought back to the caller's faces.
+
+    Attributes
+    ----------
+    given : PolygonMesh
+        The caller's mesh, p faces and n vertices.
+    working : WorkingMesh
+        Repaired copy of it.
+    bodies : Bodies
+        Of the copy.
+    results : list of ComponentResult
+        One for each body that was decomposed, with contacts; every piece of the others becomes one candidate.
+    """
+
+    given: PolygonMesh
+    working: WorkingMesh
+    bodies: Bodies
+    results: list[ComponentResult]
+
+    @property
+    def contacts(self) -> np.ndarray:
+        """(k, 2) int64, faces of the caller that touch though they share no edge: in one body."""
+        within = (r.component.polygon[r.contacts] for r in self.results)
+        return np.concatenate([self.working.stitches, self.bodies.contacts, *within])
+
+
+@dataclass(frozen=True, eq=False)
 class FoundCandidates:
     """The candidates of all components, on the pieces of the caller's faces that they were found on.
 
@@ -88,11 +117,12 @@ class FoundCandidates:
         return cls(np.concatenate([nothing[0], *face]), np.concatenate([nothing[0], *label]),
                    np.concatenate([nothing[1], *area]), Hierarchy.join([r.candidates.hierarchy for r in results]))
 
-    def with_rest(self, working: WorkingMesh, bodies: Bodies) -> FoundCandidates:
+    def with_rest(self, findings: Findings) -> FoundCandidates:
         """These, and a candidate for each piece of the bodies that were not decomposed.
 
         What is one body merges first; in the end all are one part.
         """
+        working, bodies = findings.working, findings.bodies
         rest = np.ones(working.mesh.n_faces, bool)
         for component in bodies.decomposed:
             rest[component.faces] = False

@@ -143,3 +143,38 @@ def test_the_measures_of_a_cube(scale):
         np.testing.assert_allclose(pair[:, getattr(BORDER, name)], expected, atol=1e-9, err_msg=name)
     edge = np.isclose(length * unit, 1)  # of the cube; the others are diagonals of its sides
     assert (pair[edge, BORDER.curvature] > 0).all()
+
+
+def table_legs(areas, perimeter=3.0):
+    """Measures of regions that differ in area only, a little or not; each touches each along a border of half."""
+    sums = np.stack([four_faces(area / 4) for area in areas])
+    count = len(areas)
+    perimeter, lowest, highest = np.full(count, perimeter), np.full(count, 0.1), np.full(count, 0.3)
+    return RegionMeasures(
+        sums, lowest, highest, np.full(count, 4.0), perimeter, np.full(count, 1.0), np.stack([pairs(0.5)] * count),
+        region_shape(sums, perimeter, lowest, highest), np.ones(count, bool))
+
+
+def column(found, name):
+    return found[:, FEATURES.index(name)]
+
+
+def test_the_siblings_of_a_region_are_others_than_the_two_at_the_cut():
+    found = cut_features_(table_legs([0.1] * 5), np.array([(0, 1), (3, 2)]), np.stack([pairs(0.5)] * 2))
+    assert column(found, "siblings_small").tolist() == [3, 3]
+    assert column(found, "siblings_union").tolist() == [0, 0]  # which is twice as large as any
+
+
+@pytest.mark.parametrize("rounding", [0.0, 1e-15, -1e-15])
+def test_of_two_regions_of_one_area_but_for_rounding_the_first_counts_as_the_smaller(rounding):
+    regions = table_legs([0.1, 0.1 * (1 + rounding), 0.4])
+    regions.degree[:] = 1.0, 2.0, 3.0
+    found = cut_features_(regions, np.array([(0, 1), (1, 0), (2, 0)]), np.stack([pairs(0.5)] * 3))
+    assert column(found, "neighbors_small").tolist() == [1, 2, 1]
+    assert column(found, "neighbors_large").tolist() == [2, 1, 3]
+
+
+def test_a_region_whose_borders_rounding_made_shorter_than_its_cut_has_that_alone():
+    found = cut_features_(table_legs([0.1, 0.2], 0.5 * (1 - 1e-15)), np.array([(0, 1)]), pairs(0.5)[None])
+    assert column(found, "share_small").tolist() == column(found, "share_large").tolist() == [1]
+    assert column(found, "union_perimeter_ratio").tolist() == [0]
