@@ -156,3 +156,21 @@ def test_of_many_cuts_that_only_hints_know_rounding_does_not_choose_the_first():
     assert one.n_candidates > 50
     np.testing.assert_array_equal(one.candidates, other.candidates)
     np.testing.assert_array_equal(one.hierarchy.merges, other.hierarchy.merges)
+
+
+@pytest.mark.parametrize(("share", "n_cells"), [(0.0021, 2), (0.0019, 1)])
+def test_what_a_hint_cuts_out_is_a_cell_from_a_five_hundredth_of_the_area_on(share, n_cells):
+    """A row of two faces of one candidate. The hint has nothing else, or, apart from there, half of all."""
+    row = FaceGraph(2, np.array([(0, 1)]), np.ones(1), np.array([1 - share, share]))
+    label, _ = with_hint(row, np.zeros(2, np.int64), Hierarchy.of(1, [], []), np.array([0, 1]))
+    assert len(np.unique(label)) == n_cells
+    row = FaceGraph(4, np.array([(0, 1), (1, 2), (2, 3)]), np.ones(3), np.array([0.3, share, 0.2 - share, 0.5]))
+    label, _ = with_hint(row, np.array([0, 0, 1, 1]), Hierarchy.of(2, [(0, 1)], [0.9]), np.array([0, 1, 1, 1]))
+    assert len(np.unique(label)) == n_cells + 1
+
+
+def test_where_the_method_sees_no_cut_a_hint_counts_as_much_as_it_says():
+    """One candidate of two hints: the least salience there, 0.2, is log 4 as log-odds that both are one, less 1.5."""
+    row = FaceGraph(2, np.array([(0, 1)]), np.ones(1), np.ones(2))
+    _, hierarchy = with_hint(row, np.zeros(2, np.int64), Hierarchy.of(1, [], []), np.array([0, 1]))
+    assert hierarchy.salience == pytest.approx([1 / (1 + 4 * np.exp(-1.5))], abs=1e-4)

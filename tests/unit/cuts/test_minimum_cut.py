@@ -161,3 +161,26 @@ def test_candidates_follow_the_cut_of_their_parts():
 def test_without_a_band_no_candidate_changes():
     mesh, _, label, hierarchy = quarters(12)
     assert (move_cuts(flat(mesh, 0.0), label, hierarchy) == label).all()
+
+
+def test_the_cost_of_an_edge_by_hand():
+    """Its length, times exp(curvature / 12) within 0.05 and 3."""
+    mesh = TriMesh(*shapes.flat_grid(2, 1))
+    found = MovableCuts(mesh, np.array([-120.0, -12.0, 6.0])).cost / mesh.pair_length
+    np.testing.assert_allclose(found, [0.05, np.exp(-1), np.exp(0.5)])
+    np.testing.assert_allclose(MovableCuts(mesh, np.array([-35.9, 0.0, 13.3])).cost / mesh.pair_length,
+                               [np.exp(-35.9 / 12), 1.0, 3.0])
+
+
+@pytest.mark.parametrize(("factor", "moves"), [(0.70, True), (0.76, False)])
+def test_toward_the_rim_of_the_band_costs_rise_with_the_square_of_the_distance(factor, moves):
+    """A strip of squares in two parts. Behind the next square, 0.608 of the band away, a cut costs 1.370 times as much
+    as beside it."""
+    mesh = TriMesh(*shapes.flat_grid(12, 1))
+    x = mesh.face_centroids[:, 0]
+    ends = mesh.vertices[mesh.edges.vertices[mesh.edges.pair_edge], 0]
+    level = np.where(ends[:, 0] == ends[:, 1], ends[:, 0], -1.0)  # -1 for diagonals
+    share = np.select([level == 7, level == 6], [factor, 1.0], 3.0)
+    movable = MovableCuts(mesh, 12 * np.log(share), band_ratio=100.0, widest=2.0)
+    part = minimum_cuts(movable, (x > 6).astype(np.int64))
+    np.testing.assert_array_equal(part, x > (7 if moves else 6))

@@ -22,12 +22,12 @@ def row(columns, **values):
     return made
 
 
-def four_faces(share=1 / 16, move=0.0, level=0.2, thickness=-2.0, bins=(1, 0)):
+def four_faces(share=1 / 16, move=0.0, level=0.2, thickness=-2.0, bins=(1, 0), clearance=-1.0):
     """Sum of the measures of four faces around (2, 0, 0), which spread by 2 along x, 1 along y and a half along z."""
     center = np.array([(0, 1, 0.5), (4, 1, -0.5), (0, -1, -0.5), (4, -1, 0.5)]) + (move, 0, 0)
     normal = np.array([(-1.0, 0, 0), (1, 0, 0), (0, -1, 0), (1, 0, 0)])
     sign = np.array([-1, 1, -1, 1])
-    logs = {"log_thickness": thickness + sign, "log_clearance": -1 + 0.5 * sign, "log_contour": 0.4 + 0.2 * sign,
+    logs = {"log_thickness": thickness + sign, "log_clearance": clearance + 0.5 * sign, "log_contour": 0.4 + 0.2 * sign,
             "level": level + 0.1 * sign}
     faces = [row(REGION, area=1, centroid=c, second_moment=products(c[None])[0], normal=n, support=c @ n,
                  normal_moment=products(n[None])[0], agd=k + 1, angle_defect=np.pi / 4 / share,
@@ -64,7 +64,7 @@ def pairs(length, slope=1.0):
 def test_a_cut_between_a_larger_and_a_smaller_region():
     """The first is twice as large as the second, and 10 farther along x. The third is like the second; the fourth, the
     largest of all, has merged already."""
-    sums = np.stack([four_faces(2 / 16, 10.0, 0.6, -1.0, (0, 0)), four_faces(bins=(1, 0)), four_faces(move=5.0),
+    sums = np.stack([four_faces(2 / 16, 10.0, 0.6, -1.0, (0, 0), -0.5), four_faces(bins=(1, 0)), four_faces(move=5.0),
                      four_faces(1.0)])
     lowest, highest = np.array([0.4, 0.05, 0.1, 0.0]), np.array([0.9, 0.45, 0.3, 1.0])
     perimeter = np.array([4.0, 2.0, 1.0, 1.0])
