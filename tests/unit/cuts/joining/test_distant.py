@@ -55,6 +55,14 @@ def test_a_chain_by_hand():
     assert [np.log(0.1), np.log(0.4), 0.7, 0.0, np.log(0.1)] == columns(pairs, names, 0, 1)
 
 
+def test_what_joins_after_something_less_sure_is_no_surer():
+    """Part 2 joins at a score of -0.5, and after it part 3 at 2: parts 0 and 3 are together where -0.5 is enough."""
+    near, salience, odds, _, _ = chain()
+    pairs = distant_pairs(near, salience, odds, np.array([(0, 1), (0, 2), (0, 3)]), np.array([3.0, -0.5, 2.0]))
+    for first, second, score in ((0, 1, 3.0), (0, 2, -0.5), (0, 3, -0.5), (2, 3, -0.5)):
+        assert columns(pairs, ["joined"], first, second) == [score]
+
+
 def test_of_one_shape():
     near = parts_of([(0, 1)], [0.3, 0.3, 0.4], np.zeros((3, 3)), np.zeros(3))
     pairs = distant_pairs(near, parted_by(1.0), np.zeros(1), np.empty((0, 2), int), np.empty(0))

@@ -31,6 +31,23 @@ def test_pieces_of_one_shape_are_of_one_kind_however_they_lie():
     assert len({*kind.tolist()}) == 3
 
 
+@pytest.mark.parametrize(("size", "alike"), [(1.0, True), (0.98, True), (0.94, False)])
+def test_pieces_repeat_each_other_if_their_sizes_differ_by_a_few_hundredths(size, alike):
+    """Of cells of 0.03 of the logarithm of the size, 0.98 is in the one beside that of 1, and 0.94 two farther."""
+    vertices, faces = shapes.icosphere(2)
+    one, other = piece_kinds(together([(vertices, faces), (size * vertices + 5.0, faces)]))
+    assert (one == other) == alike
+
+
+@pytest.mark.parametrize(("thick", "thicker", "alike"), [(1e-4, 2e-4, True), (2e-3, 4e-3, False)])
+def test_sheets_are_alike_however_thin(thick, thicker, alike):
+    """A ball pressed flat spreads by a quarter of its thickness, in units of its size; 0.003 is added before logarithms
+    are compared."""
+    vertices, faces = shapes.icosphere(2)
+    one, other = piece_kinds(together([(vertices * (1, 1, thick), faces), (vertices * (1, 1, thicker) + 3.0, faces)]))
+    assert (one == other) == alike
+
+
 def test_thousands_of_one_shape_take_no_table_of_pairs():
     corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
     places = np.random.default_rng(1).normal(size=(20_000, 1, 3))
