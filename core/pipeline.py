@@ -119,7 +119,7 @@ def decompose(
         hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)
         if copies := find_copies(given):
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
-            given, hint = without_copies(given, copies), hint[copies.polygon] if len(hint) else hint
+            given, hint = without_copies(given, copies), _of_faces(hint, copies.polygon)
         together = plane is None and parameters.pieces == TOGETHER
         # A method that is as it was published gets each surface whole.
         standing = find_standing(given, terrain=parameters.traits.learned) if together else None
@@ -134,18 +134,23 @@ def decompose(
     if standing is not None:
         left = standing.without_grounds(given)
         found = of_another(left.triangles.vertices, left.triangles.faces, left.polygon,
-                           hint[standing.polygon] if len(hint) else hint)
+                           _of_faces(hint, standing.polygon))
         result = with_grounds(found, given, standing)
     elif plane is None:
         with watch.stage("mesh", 0.4 * MESH_SHARE):
             # From here on the unsorted mesh and its tables are free.
             given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)
-            hint = hint[ordering.polygon] if len(hint) else hint
+            hint = _of_faces(hint, ordering.polygon)
         result = _decomposed(given, ordering, hint, parameters, watch, _Models(model, join_model))
     else:
         whole = completed(given, plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent]))
         result = of_half(of_another(whole.vertices, whole.triangles, whole.polygon, np.tile(hint, 2)), given)
     return result.with_copies(copies, area) if copies else result
+
+
+def _of_faces(hint: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The hints of some faces, (k,) int64, or (0,) if there are none at all."""
+    return hint[faces] if len(hint) else hint
 
 
 class _Models(NamedTuple):

@@ -155,8 +155,8 @@ def _numbers_and_names(
     names = list(parts.names if names is None else names)
     for given, values in (("numbers", numbers), ("names", names)):
         if len(values) != parts.count:
-            raise ParameterError(Sentence("There are {n} values for {total} elements: each needs one.",
-                                          n=len(values), total=parts.count), given)
+            raise ParameterError(Sentence("There are {n} {name} for {total} parts: each part needs one.",
+                                          n=len(values), name=given, total=parts.count), given)
     whole = whole_numbers(numbers)
     if whole is None or (whole < 1).any():
         raise ParameterError(

@@ -862,6 +862,8 @@ TEXTS = {
         "Kennzahlen müssen eine Reihe ganzer Zahlen sein, mindestens eine, nicht {type} der Form {shape}.",
     "There are {n} values for {total} elements: each needs one.":
         "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
+    "There are {n} {name} for {total} parts: each part needs one.":
+        "Es gibt {n} {name} für {total} Teile: Jedes Teil braucht einen Wert.",
     "The parts are of another mesh: give the one that was decomposed.":
         "Die Teile gehören zu einem anderen Mesh: Nötig ist das, das zerlegt wurde.",
     "{name} must be {wanted}, not {type}.":

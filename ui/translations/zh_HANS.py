@@ -776,6 +776,8 @@ TEXTS = {
         "标签必须是一行整数，至少一个，而不是形状为 {shape} 的 {type}。",
     "There are {n} values for {total} elements: each needs one.":
         "有 {n} 个值对应 {total} 个元素：每个元素需要一个值。",
+    "There are {n} {name} for {total} parts: each part needs one.":
+        "有 {n} 个 {name} 对应 {total} 个部件：每个部件需要一个值。",
     "The parts are of another mesh: give the one that was decomposed.": "部件属于另一个网格：请给出被分解的那个网格。",
     "{name} must be {wanted}, not {type}.":
         "{name} 必须为 {wanted}，而不是 {type}。",
