@@ -82,6 +82,29 @@ def by_trying(graph):
     return found
 
 
+@pytest.mark.parametrize("order", [(0, 1, 2, 3, 4), (4, 3, 2, 1, 0), (2, 0, 4, 1, 3)])
+def test_of_equal_boundaries_and_areas_the_smaller_number_counts_first(order):
+    """The strip of ``test_region_graph_by_hand``, whose regions may be numbered the other way round, or anyhow."""
+    sets = cut_at_levels(TriMesh(*shapes.flat_grid(4, 1)), np.repeat([0.0, 1, 0, 1, 0], 2), np.array([0.5]))
+    region = np.empty(5, np.int64)
+    region[sets.vertex_piece[::2]] = order
+    graph = FusionGraph(sets, 5, region)
+    assert graph.longest_boundary(order[2]) == min(order[1], order[3])
+    merges, salience = fuse_weakest(sets, 5, region, 0.05)
+    assert components(5, *merges.T)[0] == 1 == len(merges) - 3
+    assert ((salience > 0) & (salience < 1)).all()
+    # Both ends are as small as each other: that of the smaller number goes first.
+    assert merges[0].tolist() == ([order[1], order[0]] if order[0] < order[4] else [order[3], order[4]])
+
+
+def test_two_halves_are_one_part_in_the_end():
+    sets = cut_at_levels(TriMesh(*shapes.flat_grid(1, 1)), np.array([0.0, 0, 1, 1]), np.array([0.5]))
+    merges, salience = fuse_weakest(sets, 2, np.arange(2), 0.05)
+    assert sorted(merges[0].tolist()) == [0, 1]
+    # Either has an area of 1/2, and a disc whose border is of length 1 has 1 / (4 pi).
+    assert salience == pytest.approx([0.5 / (0.5 + 1 / (4 * np.pi))])
+
+
 def test_bridges_are_the_contours_that_part_the_surface(made):
     graph = FusionGraph(*made)
     while len(graph.alive) > 1:
