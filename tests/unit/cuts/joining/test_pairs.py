@@ -47,6 +47,21 @@ def test_who_is_near_whom():
     assert (found.gap >= 0).all()
 
 
+def test_how_much_of_a_part_is_near_the_other_and_elsewhere_near_any_other():
+    """Of the stones the first touches two others, the last part a single one."""
+    found = measured(*furniture())
+    column = dict(zip(FEATURES, found.features.T, strict=True))
+    for side in ("small", "large"):
+        near = np.stack([column[f"near_{side}_{k}"] for k in (1, 2, 3)])
+        assert (np.diff(near, axis=0, prepend=0) >= 0).all()
+        assert (near[2] > near[1]).all()
+        assert (near <= 1).all()
+        np.testing.assert_allclose(column[f"elsewhere_{side}"], column[f"{side}_touched"] - near[1], atol=1e-12)
+    of_first = np.flatnonzero((found.parts == 0).any(axis=1))
+    assert column["elsewhere_large"][of_first] == pytest.approx(column["near_large_2"][of_first[::-1]])
+    assert column["elsewhere_small"][found.parts.tolist().index([2, 3])] == pytest.approx(0.0)
+
+
 def test_every_two_parts_that_share_an_edge_are_seen_or_unseen_neighbors():
     shape, label = furniture()
     mesh = TriMesh(*shape)
