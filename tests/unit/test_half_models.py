@@ -143,3 +143,11 @@ def test_contacts_of_a_half_are_between_faces_that_it_has():
     assert 0 < len(found.contacts)
     assert found.contacts.max() < found.n_faces
     assert (found.contacts[:, 0] != found.contacts[:, 1]).all()
+
+
+@pytest.mark.parametrize(("away", "closed"), [(4e-4, True), (6e-4, False), (-4e-4, True), (-6e-4, False)])
+def test_a_border_at_the_plane_is_closed_if_it_is_within_a_two_thousandth_of_the_size(away, closed):
+    """Two squares in a row, whose left side is so far from the plane, in units of the diagonal."""
+    row = shapes.flat_grid(2, 1)
+    half = PolygonMesh.of(row.vertices + (away * np.sqrt(5), 0, 0), row.faces)
+    assert len(completed(half, X).vertices) == (10 if closed else 12)

@@ -95,8 +95,6 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
         points, along = np.concatenate([points, points[:1]]), np.append(along, along[0])
     arc_length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
     total = arc_length[-1]
-    if total <= 0:
-        return 0.0
     at = (arange(SAMPLES) + 0.5) / SAMPLES * total
     smooth = np.interp(at, arc_length, along)
     if sigma > 0:

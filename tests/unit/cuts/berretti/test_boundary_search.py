@@ -201,3 +201,23 @@ def test_a_cut_may_move_up_to_the_middle_between_itself_and_the_next():
     assert list(runs) == contours[places].tolist()
     assert [run.tolist() for run in runs.values()] == [
         contours[start:stop].tolist() for start, stop in ((0, 6), (6, 9), (9, 15), (15, len(contours)))]
+
+
+def test_concavity_is_worth_at_most_three_tenths_of_the_range():
+    sets = upright(shapes.icosphere(3), 2)
+    assert concavity(sets, np.full(sets.mesh.n_vertices, -1e9), 0, 0.1) == -0.3
+
+
+def test_around_a_closed_contour_it_does_not_matter_where_the_dip_is():
+    """The Gaussian runs on from the end of the contour to its beginning, where a narrow dip would count twice."""
+    sets = upright(shapes.icosphere(4), 2)
+    angle = np.arctan2(*sets.mesh.vertices[:, :2].T)
+    found = [concavity(sets, -np.exp(-((np.angle(np.exp(1j * (angle - at))) / 0.2) ** 2)), 0, 0.05)
+             for at in np.linspace(0, 2 * np.pi, 24, endpoint=False)]
+    assert min(found) == pytest.approx(max(found), rel=0.05)
+
+
+def test_a_contour_without_length_has_no_concavity():
+    sets = upright(shapes.icosphere(1), 2)
+    nowhere = replace(sets, mesh=TriMesh(0 * sets.mesh.vertices, sets.mesh.faces))
+    assert concavity(nowhere, np.full(sets.mesh.n_vertices, -1.0), 0, 0.1) == 0

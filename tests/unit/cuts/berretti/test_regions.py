@@ -131,3 +131,11 @@ def test_flat_field_is_one_region():
     regions = berretti_regions(sets, reeb_topology(sets), 0.05)
     assert regions.hierarchy.n_candidates == 1
     assert regions.hierarchy.n_candidates == 1
+
+
+def test_a_round_that_would_leave_no_cut_fuses_the_smallest_pair():
+    """A ring on its edge: below, two sides, above. Each has two neighbors, until two are left."""
+    sets = along(shapes.torus(), (1, 0.01, 0), n_slabs=3)
+    assert sets.n_pieces == 4
+    count, region = fuse_equal_adjacency(sets, 4, np.arange(4))
+    assert count == len(np.unique(region)) == 2
