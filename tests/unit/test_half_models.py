@@ -8,9 +8,11 @@ from results import same_partition
 
 from core import Decomposition, MeshError, decompose
 from core.graph.critical import SADDLE
+from core.mesh.corners import CornerTable
 from core.mesh.polygons import PolygonMesh
 from core.mesh.triangles import TriMesh
-from core.symmetry.halves import completed, is_one_side, plane_of
+from core.symmetry.halves import completed, completed_table, is_one_side, plane_of
+from core.symmetry.plane import MirrorPlane
 
 X = np.array([1.0, 0, 0, 0])
 
@@ -151,3 +153,29 @@ def test_a_border_at_the_plane_is_closed_if_it_is_within_a_two_thousandth_of_the
     row = shapes.flat_grid(2, 1)
     half = PolygonMesh.of(row.vertices + (away * np.sqrt(5), 0, 0), row.faces)
     assert len(completed(half, X).vertices) == (10 if closed else 12)
+
+
+def test_what_has_no_face_or_lies_within_the_surface_closes_nothing():
+    """A vertex far away does not make the mesh large, and one amid the surface, near to the plane, stays there."""
+    row = shapes.flat_grid(2, 1)
+    far = np.append(row.vertices + (6e-4 * np.sqrt(5), 0, 0), [(1000.0, 0, 0)], axis=0)
+    assert len(completed(PolygonMesh.of(far, row.faces), X).vertices) == 2 * 7
+    grid = shapes.flat_grid(2, 2)
+    bent = grid.vertices * (1, 1, 0) + np.where(np.arange(9) == 4, 1e-5, 1.0)[:, None] * (0, 0, 1)
+    z = np.array([0.0, 0, 1, 0])
+    assert len(completed(PolygonMesh.of(bent, grid.faces), z).vertices) == 2 * 9
+
+
+def test_a_mesh_without_vertices_is_on_no_side():
+    assert not is_one_side(np.empty((0, 3)), X)
+
+
+def test_faces_of_the_other_half_look_the_other_way_round():
+    """Of a strip at the plane: neighbors agree across it, and each face is the image of one."""
+    whole, image = completed_table(CornerTable.of(*shapes.flat_grid(2, 3)), MirrorPlane.of(X))
+    assert (whole.n_faces, len(whole.vertices)) == (24, 12 + 8)
+    assert not whole.contrary_edges().any()
+    assert (np.bincount(whole.corner_edge) == 2).sum() == 24 * 3 - len(whole.edges)
+    for face in range(12):
+        corners, others = (whole.corner_vertex[whole.corner_face == k] for k in (face, face + 12))
+        assert set(image[corners].tolist()) == set(others.tolist())
