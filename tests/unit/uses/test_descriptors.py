@@ -129,6 +129,17 @@ def test_a_ball_alone_is_what_it_is():
     assert row["apart_50"] == pytest.approx(np.sqrt(2) / np.sqrt(4 * np.pi), abs=0.02)
 
 
+def test_a_ball_apart_has_no_cuts_and_no_contours(tree):
+    """So nothing in it is deep, whatever other parts are; its radius is that of a ball of its area."""
+    shape = shapes.together(tree[0], shapes.moved(shapes.icosphere(3, 0.3), (50, 0, 0)))
+    parts = decompose(*shape).parts()
+    found, ball = part_descriptors(*shape, parts), int(parts.labels[-1])
+    assert (parts.labels == ball).sum() == len(shapes.icosphere(3).faces)
+    assert np.isfinite(found).all()
+    assert ((column(found, "depth_100") == 0) == (np.arange(parts.count) == ball)).all()
+    assert column(found, "log_radius_50")[ball] == pytest.approx(np.log(1 / np.sqrt(4 * np.pi)))
+
+
 def test_every_part_has_one_like_it_in_another_tessellation(tree):
     shape, parts = tree
     coarse = shapes.tube_tree(step=0.2)
