@@ -150,14 +150,24 @@ def test_every_point_of_a_part_lies_in_one_of_its_hulls(count):
     assert sum(hull.volume for hull in found) < sum(hull.volume for hull in fewer)
 
 
-def test_a_bowl_is_divided_crosswise():
-    """Half a bowl has half the hull: with two hulls nothing is gained, with four much is."""
+def bowl():
     angle = np.linspace(0.0, 0.5 * np.pi, 12)
     radius = np.append(np.sin(angle), 0.9 * np.sin(angle[::-1]))
-    shell = shapes.lathe(radius, np.append(-np.cos(angle), -0.9 * np.cos(angle[::-1])))
-    whole = [sum(hull.volume for hull in several(shell, per_part=count)[0]) for count in (1, 2, 4)]
+    return shapes.lathe(radius, np.append(-np.cos(angle), -0.9 * np.cos(angle[::-1])))
+
+
+def test_a_bowl_is_divided_crosswise():
+    """Half a bowl has half the hull: with two hulls nothing is gained, with four much is."""
+    whole = [sum(hull.volume for hull in several(bowl(), per_part=count)[0]) for count in (1, 2, 4)]
     assert whole[1] > 0.9 * whole[0]
     assert whole[2] < 0.8 * whole[0]
+
+
+@pytest.mark.parametrize("count", [2, 3, 5, 6, 8])
+def test_two_bowls_have_no_more_hulls_than_they_may(count):
+    """Apart they are best divided in four each, for which there is room once only with six hulls."""
+    both = shapes.together(bowl(), shapes.moved(bowl(), (3.0, 0.0, 0.0)))
+    assert len(several(both, per_part=count)[0]) <= count
 
 
 def test_volumes_of_parts_with_their_holes_closed():
