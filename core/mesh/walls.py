@@ -48,8 +48,7 @@ def may_have_walls(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:
     is_open = lengths(turned) > OPEN * area
     if is_open.sum() == 1:  # of several, seams may part one that is closed
         is_open[:] = False
-    diameter = float(np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0)))
-    thin = (_thickness(area, volume) < THICK * diameter) & (area >= LEAST * mesh.area)
+    thin = (_thickness(area, volume) < THICK * mesh.diagonal) & (area >= LEAST * mesh.area)
     return bool(area[is_open | thin].sum() >= MOST_OF_MESH * mesh.area)
 
 
