@@ -3,7 +3,8 @@
 
 At the edges of such faces three and more meet, as if the surface branched there, and what is said of the bend, the
 borders and the inside of a surface holds no more. So a copy is left out before anything is measured, and has the part
-of the face on which it lies. So is a second skin, which runs along the whole mesh at a small distance.
+of the face on which it lies. So is a second skin, which runs along the whole mesh at a small distance, and the side of
+a thin wall that looks into a hollow.
 """
 
 from __future__ import annotations
@@ -101,7 +102,7 @@ class Copies:
 
 
 def find_copies(given: PolygonMesh) -> Copies | None:
-    """Find polygons with the same corners as others, in the same order or the opposite one; if there are none, skins.
+    """Find polygons with the same corners as others, in either order; if there are none, skins or inner sides of walls.
 
     Only in pieces that are copied nearly whole. Corners are the same where their coordinates are, whether they are one
     vertex or several.

@@ -18,7 +18,7 @@ from ..arrays.pairs import both_ways
 from ..arrays.ties import rounded
 from ..arrays.vectors import inner_products, lengths, row_products, second_moments
 from .cavities import LEAST
-from .face_graph import FaceGraph, connect, fill_unlabeled
+from .face_graph import FaceGraph, connect
 from .pieces import TURN, Pieces, measured, scattered
 from .polygons import PolygonMesh
 from .triangles import TriMesh
@@ -75,8 +75,10 @@ def find_walls(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
     of_triangle = pieces.of_polygon[given.polygon]
     for k in np.flatnonzero(thin).tolist():
         face = np.flatnonzero(of_triangle == k)
-        surface, volume = _surface(given, pieces, face), float(np.abs(pieces.volume[k])) / 3
-        if _fills_its_box(surface, volume):
+        if not len(face):  # triangles of a polygon may lie in several pieces, and are of one of them
+            continue
+        surface = _surface(given, pieces, face, inverted=bool(pieces.volume[k] < 0))
+        if _fills_its_box(surface, abs(float(pieces.volume[k])) / 3):
             continue
         found = _along(surface, float(pieces.diameter[k]))
         if found is not None:
@@ -90,14 +92,14 @@ def _thickness(area: np.ndarray, volume: np.ndarray) -> np.ndarray:
     return 2 / 3 * np.abs(volume) / np.maximum(area, 1e-300)
 
 
-def _surface(given: PolygonMesh, pieces: Pieces, face: np.ndarray) -> TriMesh:
-    """Some triangles of one piece, looking outwards, corners at one place being one vertex; face : (k,) int64."""
+def _surface(given: PolygonMesh, pieces: Pieces, face: np.ndarray, inverted: bool) -> TriMesh:
+    """Some triangles of one piece, (k,) int64, turned about if it is inverted; corners at one place are one vertex."""
     corner = pieces.place[given.triangles.faces[face]]
     used = np.zeros(len(pieces.first), bool)
     used[corner] = True
     place = np.flatnonzero(used)
+    place = place[np.argsort(pieces.first[place])]  # places are numbered at random
     corner = place_among(place, len(used))[corner]
-    inverted = pieces.volume[pieces.of_place[place[0]]] < 0
     return TriMesh(given.triangles.vertices[pieces.first[place]], corner[:, ::-1] if inverted else corner)
 
 
@@ -112,6 +114,8 @@ def _along(mesh: TriMesh, diameter: float) -> np.ndarray | None:
 
     None if it is no wall around a hollow.
     """
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
+
     behind, usual = _behind(mesh, diameter)
     if not usual:
         return None
@@ -127,8 +131,10 @@ def _along(mesh: TriMesh, diameter: float) -> np.ndarray | None:
         return None
     graph = FaceGraph.of(mesh)
     is_outer = connect(graph, _filled(side, graph.pairs)) == 0
-    known = (behind >= 0) & is_outer[behind]
-    return fill_unlabeled(graph, np.where(is_outer, arange(mesh.n_faces), np.where(known, behind, -1)))
+    along = np.where(is_outer, arange(mesh.n_faces), behind)
+    outer, unknown = np.flatnonzero(is_outer), np.flatnonzero((along < 0) | ~is_outer[along])
+    along[unknown] = outer[nearest(search_tree(mesh.face_centroids[outer]), mesh.face_centroids[unknown])[1]]
+    return along
 
 
 def _behind(mesh: TriMesh, diameter: float) -> tuple[np.ndarray, float]:
@@ -139,7 +145,8 @@ def _behind(mesh: TriMesh, diameter: float) -> tuple[np.ndarray, float]:
     from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
     every, normal = arange(mesh.n_faces), mesh.face_normals
-    order = np.argsort(hashed_rows(mesh.face_centroids), kind="stable")  # whatever the order of the faces
+    # Whatever the order of the faces, and twice as large, too.
+    order = np.argsort(hashed_rows(np.frexp(mesh.face_centroids)[0]), kind="stable")
 
     def depth(face: np.ndarray, start: np.ndarray, other: np.ndarray, end: np.ndarray, count: int) -> np.ndarray:
         """How far it is from points on faces to others, of so many, against their normals; infinite if none faces."""

@@ -33,14 +33,18 @@ BOUNDS = {"n_slabs": (3, 60), "n_clusters": (2, 20), "bed": (1000.0, 5000.0)}
 
 
 def _shape(rng):
-    """A tree, now and then on a floor or with borders that do not meet, or a figure on ground that is one with it."""
+    """A tree, at times on a floor, with borders that do not meet or as a wall, or a figure on ground one with it."""
     if (chance := rng.random()) < 0.15:
         return shapes.figure_on_ground(5.0, step=0.35)
     tree = shapes.tube_tree(int(rng.integers(1, 5)), float(rng.choice([0.25, 0.3, 0.4])))
     floor = shapes.moved(shapes.flat_grid(4, 4, 3.0), (-6, -6, tree.vertices[:, 2].min()))
     if chance < 0.4:
         return shapes.split_on_one_side(tree, np.flatnonzero(rng.random(len(tree.faces)) < 0.2))[0]
-    return shapes.together(tree, floor) if chance < 0.5 else tree
+    if chance < 0.5:
+        return shapes.together(tree, floor)
+    if chance < 0.65:
+        return shapes.thickened(shapes.Shape(tree.vertices, tree.faces[len(tree.faces) // 20:]), 0.02)
+    return tree
 
 
 class Walk:

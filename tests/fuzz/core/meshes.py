@@ -158,6 +158,13 @@ def part(vertices, faces, amount, rng):
                              rng)
 
 
+def wall(vertices, faces, amount, rng):
+    """A wall around it, open somewhere, thin or thick."""
+    open_ = faces[np.argsort(vertices[faces].mean(axis=1)[:, 2], kind="stable")[1 + len(faces) // 20:]]
+    size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    return shapes.thickened(shapes.Shape(vertices, open_), size * 10.0 ** (-3 + 2.5 * amount))
+
+
 def shuffle(vertices, faces, amount, rng):
     place = rng.permutation(len(vertices))
     moved = np.empty_like(vertices)
@@ -196,7 +203,7 @@ def no_vertex(vertices, faces, amount, rng):
 
 DAMAGES = {function.__name__: function for function in (
     drop, duplicate, flip, collapse, weld, coincide, noise, spike, squash, unused, crumb, fin, unjoin, finer,
-    tear, part, shuffle, scale, move, refine, not_a_number, no_vertex)}
+    tear, part, wall, shuffle, scale, move, refine, not_a_number, no_vertex)}
 #: What makes a mesh that has to be refused.
 REFUSED = {"not_a_number", "no_vertex"}
 

@@ -22,6 +22,7 @@ def opened(shape, share=0.02):
 FIGURE = opened(shapes.mirrored_figure())
 WALL = shapes.thickened(FIGURE, 0.03)
 N_FACES = len(FIGURE.faces)
+COARSE = shapes.thickened(opened(shapes.icosphere(2)), 0.004)  # its faces are larger than points on it are apart
 
 
 def copied(shape):
@@ -57,6 +58,11 @@ def test_it_is_the_inner_side_that_is_left_out():
     lambda shape: shapes.Shape(shape.vertices @ shapes.rotation(RNG).T + 4.0, shape.faces)])
 def test_it_is_found_whatever_way_the_mesh_is_stored(change):
     assert (copied(change(WALL))[:2 * N_FACES] == copied(WALL)[:2 * N_FACES]).all()
+
+
+def test_a_wall_twice_as_large_runs_along_the_same_faces():
+    along = [find_copies(PolygonMesh.of(size * COARSE.vertices, COARSE.faces)).original for size in (1.0, 2.0)]
+    assert (along[0] == along[1]).all()
 
 
 def test_the_order_of_the_mesh_does_not_tell_the_side():
