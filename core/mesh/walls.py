@@ -16,7 +16,7 @@ from ..arrays.indexing import place_among
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways
 from ..arrays.ties import rounded
-from ..arrays.vectors import inner_products, lengths, row_products, second_moments
+from ..arrays.vectors import inner_products, lengths, row_products, second_moments, unit
 from .cavities import LEAST
 from .face_graph import FaceGraph, connect
 from .pieces import TURN, Pieces, measured, scattered
@@ -48,8 +48,14 @@ def may_have_walls(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:
     is_open = lengths(turned) > OPEN * area
     if is_open.sum() == 1:  # of several, seams may part one that is closed
         is_open[:] = False
-    thin = (_thickness(area, volume) < THICK * mesh.diagonal) & (area >= LEAST * mesh.area)
-    return bool(area[is_open | thin].sum() >= MOST_OF_MESH * mesh.area)
+    diameter = mesh.diagonal
+    thin = (_thickness(area, volume) < THICK * diameter) & (area >= LEAST * mesh.area)
+    if area[is_open | thin].sum() < MOST_OF_MESH * mesh.area:
+        return False
+    if count > 1 or volume[0] < 0:
+        return True
+    some = arange(mesh.n_faces)[::max(mesh.n_faces // MANY, 1)]
+    return bool(np.isfinite(_depths(mesh, some, diameter)).mean() > 0.9 * MOST_OF_POINTS)
 
 
 def find_walls(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
@@ -137,6 +143,36 @@ def _along(mesh: TriMesh, diameter: float) -> np.ndarray | None:
     return along
 
 
+def _depths(mesh: TriMesh, faces: np.ndarray, diameter: float) -> np.ndarray:
+    """How far it is from points on faces, (k,) int64, through the wall to its other side; infinite if there is none.
+
+    Returns (FEW / 4,) float64.
+    """
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
+
+    its, position = scattered(mesh, faces, mesh.face_area[faces], FEW)
+    normal = unit(mesh.area_normals[its])
+    place, some = position / diameter, slice(None, None, 4)
+    tree = search_tree(np.concatenate([place, TURN * normal], axis=1))
+    point = nearest(tree, np.concatenate([place[some], -TURN * normal[some]], axis=1), NEAREST)[1].T
+    aside = ASIDE * np.sqrt(mesh.area / FEW)
+    return np.min([_depth(position[some], normal[some], position[k], normal[k], THICK * diameter, aside)
+                   for k in point], axis=0)
+
+
+def _depth(start: np.ndarray, normal: np.ndarray, end: np.ndarray, other: np.ndarray, most: float,
+           aside: float) -> np.ndarray:
+    """How far it is from points, against their normals, to the planes of others that face them; infinite if none does.
+
+    start, normal, end, other : (k, 3), points and normals. most : how far at most. aside : how far the other point is
+    from the line at most. Returns (k,) float64.
+    """
+    cosine, offset = row_products(normal, other), end - start
+    found = row_products(offset, other) / np.maximum(-cosine, 1e-9)
+    meets = (cosine < FACING) & (found > 0) & (found < most) & (lengths(offset + found[:, None] * normal) < aside)
+    return np.where(meets, found, np.inf)
+
+
 def _behind(mesh: TriMesh, diameter: float) -> tuple[np.ndarray, float]:
     """The face that lies behind each through the wall, (m,) int64, and how thick the wall is.
 
@@ -144,33 +180,21 @@ def _behind(mesh: TriMesh, diameter: float) -> tuple[np.ndarray, float]:
     """
     from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
-    every, normal = arange(mesh.n_faces), mesh.face_normals
+    behind = full(mesh.n_faces, -1)
     # Whatever the order of the faces, and twice as large, too.
     order = np.argsort(hashed_rows(np.frexp(mesh.face_centroids)[0]), kind="stable")
-
-    def depth(face: np.ndarray, start: np.ndarray, other: np.ndarray, end: np.ndarray, count: int) -> np.ndarray:
-        """How far it is from points on faces to others, of so many, against their normals; infinite if none faces."""
-        cosine, offset = row_products(normal[face], normal[other]), end - start
-        found = row_products(offset, normal[other]) / np.maximum(-cosine, 1e-9)
-        meets = (cosine < FACING) & (found > 0) & (found < THICK * diameter)
-        meets &= lengths(offset + found[:, None] * normal[face]) < ASIDE * np.sqrt(mesh.area / count)
-        return np.where(meets, found, np.inf)
-
-    # Of some points the nearest of those that look the other way.
-    its, position = scattered(mesh, order, mesh.face_area[order], FEW)
-    place, some = position / diameter, slice(None, None, 4)
-    tree = search_tree(np.concatenate([place, TURN * normal[its]], axis=1))
-    point = nearest(tree, np.concatenate([place[some], -TURN * normal[its[some]]], axis=1), NEAREST)[1].T
-    deep = np.min([depth(its[some], position[some], its[k], position[k], FEW) for k in point], axis=0)
+    deep = _depths(mesh, order, diameter)
     if np.isfinite(deep).mean() < MOST_OF_POINTS:
-        return full(mesh.n_faces, -1), 0.0
+        return behind, 0.0
     usual = float(rounded(np.median(deep[np.isfinite(deep)]), 4))
     # Of all faces the nearest to where the other side is then: by their middles, or if these are far apart, by points.
-    behind = full(mesh.n_faces, -1)
-    for its, end in ((every, mesh.face_centroids), scattered(mesh, order, mesh.face_area[order], MANY)):
+    normal, aside = mesh.face_normals, ASIDE * np.sqrt(mesh.area / MANY)
+    middles = arange(mesh.n_faces), mesh.face_centroids
+    for its, end in (middles, scattered(mesh, order, mesh.face_area[order], MANY)):
         left = np.flatnonzero(behind < 0)
-        point = nearest(search_tree(end), mesh.face_centroids[left] - usual * normal[left])[1]
-        deep = depth(left, mesh.face_centroids[left], its[point], end[point], MANY)
+        start = mesh.face_centroids[left]
+        point = nearest(search_tree(end), start - usual * normal[left])[1]
+        deep = _depth(start, normal[left], end[point], normal[its[point]], THICK * diameter, aside)
         found = (deep > AS_THICK[0] * usual) & (deep < AS_THICK[1] * usual)
         behind[left[found]] = its[point[found]]
         if mesh.face_area[behind >= 0].sum() > MOST_OF_POINTS * mesh.area:
