@@ -116,29 +116,26 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     copies : Copies or None
         None if there are none, or if too few polygons would be left.
     """
-    place = hashed_rows(given.triangles.vertices)
-    # An outline and what it is drawn around may have places in common, where a normal is 0, but no vertices.
-    return (_with_same_corners(given, place) or _skins(given, place) or _inner_sides(given, place)
-            or _skins(given, arange(given.triangles.n_vertices)))
-
-
-def _skins(given: PolygonMesh, place: np.ndarray) -> Copies | None:
-    """Second skins as copies of what they run along; place : (n,) of int, equal for vertices that are taken as one."""
-    mesh = given.triangles
+    mesh, place = given.triangles, hashed_rows(given.triangles.vertices)
+    if found := _with_same_corners(given, place):
+        return found
     count, piece = mesh.vertex_components
-    if count == 1 or not _may_have_skins(mesh, piece[mesh.faces[:, 0]], count):
+    piece = piece[mesh.faces[:, 0]]
+    area, _, volume = measured(mesh, piece, count)
+    skins, walls = _may_have_skins(mesh, piece, area, volume), may_have_walls(mesh, piece, area, volume)
+    if not (skins or walls):
         return None
-    found = _along(given, Pieces.of(given, place))
-    return None if found is None else _apart(*found)
+    pieces = Pieces.of(given, place)
+    found = (_skins(given, pieces) if skins else None) or (_inner_sides(given, pieces) if walls else None)
+    if skins and not found:
+        # An outline and what it is drawn around may have places in common, where a normal is 0, but no vertices.
+        found = _skins(given, Pieces.of(given, arange(mesh.n_vertices)))
+    return found
 
 
-def _inner_sides(given: PolygonMesh, place: np.ndarray) -> Copies | None:
-    """Inner sides of walls as copies of what they run along; place : (n,) uint64, where each vertex is."""
-    mesh = given.triangles
-    count, piece = mesh.vertex_components
-    if not may_have_walls(mesh, piece[mesh.faces[:, 0]], count):
-        return None
-    along = find_walls(given, Pieces.of(given, place))
+def _inner_sides(given: PolygonMesh, pieces: Pieces) -> Copies | None:
+    """Inner sides of walls as copies of what they run along."""
+    mesh, along = given.triangles, find_walls(given, pieces)
     if along is None:
         return None
     polygon, original = given.polygon, _outer_polygons(given, along)
@@ -189,23 +186,26 @@ def _apart(original: np.ndarray, home: np.ndarray) -> Copies | None:
                   np.zeros(len(original), bool), apart=True)
 
 
-def _along(given: PolygonMesh, pieces: Pieces) -> tuple[np.ndarray, np.ndarray] | None:
-    """The polygons and vertices along which those of skins and cavities run, (p,) and (n,) int64; None without such."""
+def _skins(given: PolygonMesh, pieces: Pieces) -> Copies | None:
+    """Second skins and cavities as copies of what they run along."""
     n_points = 0
     if (base := find_skins(given, pieces)) is None:
         base, n_points = find_cavities(given, pieces), POINTS
     if base is None:
         return None
-    return nearest_polygons(given, pieces, base, n_points), nearest_vertices(given, pieces, base)
+    return _apart(nearest_polygons(given, pieces, base, n_points), nearest_vertices(given, pieces, base))
 
 
-def _may_have_skins(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:
-    """Whether to look for skins and cavities at all, by what hangs together by its vertices; piece : (m,) int64.
+def _may_have_skins(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, volume: np.ndarray) -> bool:
+    """Whether to look for skins and cavities at all, by what hangs together by its vertices.
 
     Of a skin there are pieces of as many faces each, also where seams part them, and a cavity is inside out.
+
+    piece : (m,) int64, of each face. area, volume : (count,) float64, of each piece, as ``measured`` has them.
     """
-    area, _, volume = measured(mesh, piece, count)
-    size = np.bincount(piece, minlength=count)
+    if len(area) == 1:
+        return False
+    size = np.bincount(piece, minlength=len(area))
     has_like = np.bincount(size)[size] > 1
     return bool(area[has_like].sum() >= MOST_OF_MESH * mesh.area or ((volume < 0) & (area >= LEAST * mesh.area)).any())
 

@@ -41,9 +41,12 @@ LEAST_PULL = 1e-4  # share of a patch's area that must speak for a side
 MOST, MOST_WRONG, LEAST_SIDE, FULL = 0.65, 0.03, 0.2, 0.75
 
 
-def may_have_walls(mesh: TriMesh, piece: np.ndarray, count: int) -> bool:
-    """Whether to look for walls at all, by what hangs together by its vertices; piece : (m,) int64, of each face."""
-    area, _, volume = measured(mesh, piece, count)
+def may_have_walls(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, volume: np.ndarray) -> bool:
+    """Whether to look for walls at all, by what hangs together by its vertices.
+
+    piece : (m,) int64, of each face. area, volume : (count,) float64, of each piece, as ``measured`` has them.
+    """
+    count = len(area)
     turned = np.stack([np.bincount(piece, mesh.area_normals[:, axis], count) for axis in range(3)], axis=1)
     is_open = lengths(turned) > OPEN * area
     if is_open.sum() == 1:  # of several, seams may part one that is closed
@@ -83,10 +86,10 @@ def find_walls(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
         face = np.flatnonzero(of_triangle == k)
         if not len(face):  # triangles of a polygon may lie in several pieces, and are of one of them
             continue
-        surface = _surface(given, pieces, face, inverted=bool(pieces.volume[k] < 0))
-        if _fills_its_box(surface, abs(float(pieces.volume[k])) / 3):
+        surface, volume = _surface(given, pieces, face, inverted=bool(pieces.volume[k] < 0)), abs(pieces.volume[k])
+        if _fills_its_box(surface, volume / 3):
             continue
-        found = _along(surface, float(pieces.diameter[k]))
+        found = _along(surface, volume, float(pieces.diameter[k]))
         if found is not None:
             walled += pieces.area[k]
             along[face] = face[found]
@@ -115,10 +118,10 @@ def _fills_its_box(mesh: TriMesh, volume: float) -> bool:
     return bool(volume > FULL * np.ptp(inner_products(mesh.vertices, axes.T), axis=0).prod())
 
 
-def _along(mesh: TriMesh, diameter: float) -> np.ndarray | None:
+def _along(mesh: TriMesh, whole: float, diameter: float) -> np.ndarray | None:
     """For each face of a piece that is on the inner side of its wall one of the outer side, for others their own, (m,).
 
-    None if it is no wall around a hollow.
+    None if it is no wall around a hollow. whole : the piece's volume, as ``measured`` has it.
     """
     from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
@@ -132,7 +135,6 @@ def _along(mesh: TriMesh, diameter: float) -> np.ndarray | None:
     _, _, volume = measured(mesh, side + 1, 3)
     if volume[2] > volume[1]:
         side, volume = np.where(side < 0, -1, 1 - side), volume[[0, 2, 1]]
-    whole = measured(mesh, np.zeros(mesh.n_faces, np.int64), 1)[2][0]
     if volume[2] > 0 or whole > FULL * volume[1]:
         return None
     graph = FaceGraph.of(mesh)

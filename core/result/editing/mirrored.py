@@ -201,9 +201,17 @@ def own_halves(before: np.ndarray, asked: np.ndarray, twin: np.ndarray, side: np
     """
     own = np.zeros(max(len(own_side), int(asked.max()) + 1), np.int64)
     own[: len(own_side)] = own_side
-    taken = (asked != before) & (twin >= 0)
-    beyond = taken & taken[twin] & (asked == asked[twin]) & (side * own[asked] < 0)
-    return np.where(beyond, before, asked)
+    return np.where(are_beyond(before, asked, twin, side, own), before, asked)
+
+
+def are_beyond(before: np.ndarray, after: np.ndarray, twin: np.ndarray, side: np.ndarray,
+               own_side: np.ndarray) -> np.ndarray:
+    """Which faces a change gave to a part that lies on the other side, and their images to the same part, (p,) bool.
+
+    As in ``own_halves``; own_side : (k,) int, of all numbers in ``after``.
+    """
+    given = (before != after) & (twin >= 0)
+    return given & given[twin] & (after == after[twin]) & (side * own_side[after] < 0)
 
 
 def on_both_sides(

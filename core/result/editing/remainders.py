@@ -10,6 +10,7 @@ from ...arrays.pairs import both_ways
 from ...arrays.ties import TIE
 from ...mesh.face_graph import FaceGraph
 from ...mesh.labels import majority
+from .mirrored import are_beyond
 
 #: A piece goes along if it is smaller than this share of the largest that is left of its part ...
 BESIDE_LARGEST = 1 / 3
@@ -81,8 +82,7 @@ def halved_between_images(graph: FaceGraph, without: np.ndarray, after: np.ndarr
     after : (n,) int64
         Each part has what is on its side, and what is across the plane stays; as given if that leaves more pieces.
     """
-    along = (without != after) & (twin >= 0)
-    between = along & along[twin] & (after == after[twin]) & (side * own_side[after] < 0)
+    between = are_beyond(without, after, twin, side, own_side)
     if not between.any():
         return after
     halved = np.where(between, image[after], after)
