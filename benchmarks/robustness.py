@@ -112,8 +112,7 @@ def as_wall(hole: float, thickness: float):
         middle = mesh.face_centroids
         near = np.argsort(np.linalg.norm(middle - middle[middle[:, 1].argmin()], axis=1), kind="stable")
         kept = np.sort(near[np.cumsum(mesh.face_area[near]) > hole * mesh.area])
-        diagonal = np.linalg.norm(np.ptp(mesh.vertices, axis=0))
-        wall = shapes.thickened(shapes.Shape(mesh.vertices, mesh.faces[kept]), thickness * diagonal)
+        wall = shapes.thickened(shapes.Shape(mesh.vertices, mesh.faces[kept]), thickness * mesh.diagonal)
         image = cKDTree(middle[kept]).query(middle)[1]
         return TriMesh(*wall), None, np.where(np.arange(mesh.n_faces) % 2, image, len(kept) + image)
 

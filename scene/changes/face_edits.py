@@ -15,6 +15,7 @@ from ...core.arrays.int64 import arange
 from ...core.mesh.corners import CornerTable
 from ...core.mesh.face_graph import FaceGraph
 from ...core.result.decomposition import Decomposition
+from ...core.result.numbering import NumberedParts
 from ...core.sentence import Count
 from .. import bridge, property_updates, store, transaction
 from ..errors import SceneError
@@ -124,10 +125,15 @@ def _own_halves(stored: Stored, asked: np.ndarray) -> np.ndarray:
     found, numbered = stored.decomposition, stored.shown_parts()
     if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
         return asked
+    halves = own_halves(stored.face_numbers, asked, found.face_twin, found.face_side, _own_side(numbered))
+    return asked if np.array_equal(halves, asked) else halves
+
+
+def _own_side(numbered: NumberedParts) -> np.ndarray:
+    """Side of the part of each number, (k,) int64, 0 where it has none."""
     own_side = np.zeros(int(numbered.numbers.max()) + 1, np.int64)
     own_side[numbered.numbers] = numbered.parts.side
-    halves = own_halves(stored.face_numbers, asked, found.face_twin, found.face_side, own_side)
-    return asked if np.array_equal(halves, asked) else halves
+    return own_side
 
 
 def _mirrored_too(mesh: bpy.types.Mesh, stored: Stored, asked: np.ndarray, graph: FaceGraph,
@@ -155,12 +161,10 @@ def _with_small_pieces(stored: Stored, touching: FaceGraph, after: np.ndarray, b
     along = with_small_pieces(touching, stored.face_numbers, after, beside_taken)
     if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
         return along
-    image = arange(int(max(along.max(), numbered.numbers.max())) + 1)
-    own_side = np.zeros_like(image)
-    twin = twin_numbers(numbered)
+    image, twin = arange(int(max(along.max(), numbered.numbers.max())) + 1), twin_numbers(numbered)
     image[list(twin)] = list(twin.values())
-    own_side[numbered.numbers] = numbered.parts.side
-    return halved_between_images(touching, after, along, found.face_twin, found.face_side, own_side, image)
+    return halved_between_images(touching, after, along, found.face_twin, found.face_side, _own_side(numbered),
+                                 image)
 
 
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:

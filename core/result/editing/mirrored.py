@@ -199,19 +199,18 @@ def own_halves(before: np.ndarray, asked: np.ndarray, twin: np.ndarray, side: np
     asked : (p,) int64
         As before where both sides would have gone to a part of the other one.
     """
-    own = np.zeros(max(len(own_side), int(asked.max()) + 1), np.int64)
-    own[: len(own_side)] = own_side
-    return np.where(are_beyond(before, asked, twin, side, own), before, asked)
+    return np.where(are_beyond(before, asked, twin, side, own_side), before, asked)
 
 
 def are_beyond(before: np.ndarray, after: np.ndarray, twin: np.ndarray, side: np.ndarray,
                own_side: np.ndarray) -> np.ndarray:
     """Which faces a change gave to a part that lies on the other side, and their images to the same part, (p,) bool.
 
-    As in ``own_halves``; own_side : (k,) int, of all numbers in ``after``.
+    As in ``own_halves``; a number beyond those of ``own_side`` is that of a new part, which has no side.
     """
     given = (before != after) & (twin >= 0)
-    return given & given[twin] & (after == after[twin]) & (side * own_side[after] < 0)
+    of_part = np.append(own_side, 0)[np.minimum(after, len(own_side))]
+    return given & given[twin] & (after == after[twin]) & (side * of_part < 0)
 
 
 def on_both_sides(
