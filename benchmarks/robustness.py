@@ -18,7 +18,7 @@ from pathlib import Path
 
 import packages
 
-packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification")
+packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification", "manifold3d")
 
 sys.path.append(str(packages.ROOT / "tests"))
 
@@ -119,6 +119,26 @@ def as_wall(hole: float, thickness: float):
     return change
 
 
+def as_closed_halves(mesh: TriMesh) -> tuple[TriMesh, None, np.ndarray]:
+    """One side of the plane of symmetry, closed there, and its mirror image; as it is if it has none or is not closed.
+
+    Returns the mesh; None; and for each given face the nearest one of its half.
+    """
+    from manifold3d import Manifold, Mesh
+
+    plane = decompose(mesh.vertices, mesh.faces).mirror
+    solid = Manifold(Mesh(mesh.vertices.astype(np.float32), mesh.faces.astype(np.uint32)))
+    if not len(plane) or solid.is_empty():
+        return mesh, None, np.arange(mesh.n_faces)
+    half = solid.trim_by_plane(plane[:3], plane[3]).to_mesh()
+    vertices, faces = np.asarray(half.vert_properties, float)[:, :3], np.asarray(half.tri_verts, np.int64)
+    image = vertices - 2 * (vertices @ plane[:3] - plane[3])[:, None] * plane[:3]
+    both = TriMesh(np.concatenate([vertices, image]), np.concatenate([faces, faces[:, ::-1] + len(vertices)]))
+    above = np.abs(vertices @ plane[:3] - plane[3])[faces].max(axis=1) > 1e-5 * mesh.diagonal
+    outer = np.flatnonzero(np.tile(above, 2))
+    return both, None, outer[cKDTree(both.face_centroids[outer]).query(mesh.face_centroids)[1]]
+
+
 def as_quads(mesh: TriMesh) -> tuple[TriMesh, np.ndarray, np.ndarray]:
     """Triangles paired to quadrangles, flattest pairs first, and cut along the other diagonal.
 
@@ -191,6 +211,7 @@ CHANGES = {
     "30 % of faces split so": torn(0.3),
     "a wall of 0.005 with a hole of 0.002": as_wall(0.002, 0.005),
     "a wall of 0.008 around half of it": as_wall(0.5, 0.008),
+    "one side and its mirror image, each closed": as_closed_halves,
     "quads instead of triangles": as_quads,
     "bent by 45 degrees": bent(45.0),
     "bent by 90 degrees": bent(90.0),

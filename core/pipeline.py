@@ -117,7 +117,9 @@ def decompose(
     with watch.stage("mesh", 0.0):
         given = PolygonMesh.of(vertices, faces, polygon)
         hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)
-        if copies := find_copies(given):
+        if plane is not None:
+            plane = plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent])
+        if copies := find_copies(given, plane):
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
             given, hint = without_copies(given, copies), _of_faces(hint, copies.polygon)
         together = plane is None and parameters.pieces == TOGETHER
@@ -143,7 +145,7 @@ def decompose(
             hint = _of_faces(hint, ordering.polygon)
         result = _decomposed(given, ordering, hint, parameters, watch, _Models(model, join_model))
     else:
-        whole = completed(given, plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent]))
+        whole = completed(given, plane)
         result = of_half(of_another(whole.vertices, whole.triangles, whole.polygon, np.tile(hint, 2)), given)
     return result.with_copies(copies, area) if copies else result
 

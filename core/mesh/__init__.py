@@ -8,6 +8,7 @@ Where data enters:
 - ``polygons``: the caller's mesh with its polygons cut into triangles
 - ``ears``: how polygons are cut into triangles
 - ``copies``: faces that lie on others with the same corners
+- ``interior``: faces within a solid, in its plane of symmetry
 - ``pieces``: what hangs together by places, and what is nearest on another piece
 - ``skins``: second skins, such as an outline
 - ``cavities``: inner walls of hollow bodies

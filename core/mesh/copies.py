@@ -3,8 +3,8 @@
 
 At the edges of such faces three and more meet, as if the surface branched there, and what is said of the bend, the
 borders and the inside of a surface holds no more. So a copy is left out before anything is measured, and has the part
-of the face on which it lies. So is a second skin, which runs along the whole mesh at a small distance, and the side of
-a thin wall that looks into a hollow.
+of the face on which it lies. So is a second skin, which runs along the whole mesh at a small distance, the side of a
+thin wall that looks into a hollow, and what lies within the solid in its plane of symmetry.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from ..arrays.indexing import begins_run, inverse
 from ..arrays.int64 import arange, cumsum
 from ..sentence import Sentence
 from .cavities import LEAST, POINTS, find_cavities
-from .pieces import Pieces, measured, nearest_polygons, nearest_vertices
+from .interior import find_interior
+from .pieces import Pieces, measured, measured_polygons, nearest_polygons, nearest_vertices
 from .polygons import MIN_FACES, PolygonMesh, hashed_polygons
 from .skins import MOST_OF_MESH, find_skins
 from .triangles import TriMesh, vertex_components
@@ -27,6 +28,7 @@ from .walls import find_walls, may_have_walls
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
 MOST = 0.9
+ASIDE = 1e-3  # diagonals of the mesh by which the nearest to an interior face is sought on its own side
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +49,8 @@ class Copies:
         Whether each polygon is the other side of the one of which it is a copy.
     apart : bool
         Whether the copies are second skins, which do not lie on their originals.
+    interior : bool
+        Whether the copies are interior faces, which are no copies at all, but have the parts of what is nearest.
     n_rims : int
         Number of edges where copies go on in what they are copies of: borders of what is left, but not of the mesh.
     """
@@ -57,6 +61,7 @@ class Copies:
     home: np.ndarray
     turned: np.ndarray
     apart: bool = False
+    interior: bool = False
     n_rims: int = 0
 
     @property
@@ -72,6 +77,9 @@ class Copies:
     @property
     def note(self) -> Sentence:
         """What to say of them."""
+        if self.interior:
+            return Sentence("{n} {n:face lies|faces lie} within the solid, in its plane of symmetry, and {n:has|have} "
+                            "the parts of what is nearest.", n=self.n_copies)
         if self.apart:
             return Sentence("{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner "
                             "wall, and {n:has|have} their parts.", n=self.n_copies)
@@ -91,8 +99,11 @@ class Copies:
         """Mirror images of all polygons, from those of the ones that are no copies.
 
         twin : (k,) int64, place in ``polygon`` of the image of each; -1 for none. Returns (p,) int64: the image of a
-        copy is a copy of the image, if there is one.
+        copy is a copy of the image, if there is one. Interior faces have none.
         """
+        if self.interior:
+            image = np.where(self.is_copy, -1, twin[self.original])
+            return np.where(image >= 0, self.polygon[image], -1)
         order = np.lexsort((self.is_copy, self.original))
         count = np.bincount(self.original)
         first = cumsum(count) - count
@@ -101,8 +112,8 @@ class Copies:
         return np.where(image >= 0, order[first[image] + np.minimum(rank, count[image] - 1)], -1)
 
 
-def find_copies(given: PolygonMesh) -> Copies | None:
-    """Find polygons with the same corners as others, in either order; if there are none, skins or inner sides of walls.
+def find_copies(given: PolygonMesh, plane: np.ndarray | None = None) -> Copies | None:
+    """Find polygons with the same corners as others, in either order; or else interior faces, skins or walls.
 
     Only in pieces that are copied nearly whole. Corners are the same where their coordinates are, whether they are one
     vertex or several.
@@ -110,6 +121,8 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     Parameters
     ----------
     given : PolygonMesh
+    plane : (4,) float64, optional
+        Of a half model, see ``find_interior``.
 
     Returns
     -------
@@ -118,6 +131,8 @@ def find_copies(given: PolygonMesh) -> Copies | None:
     """
     mesh, place = given.triangles, hashed_rows(given.triangles.vertices)
     if found := _with_same_corners(given, place):
+        return found
+    if found := _interior(given, find_interior(given, place, plane), half=plane is not None):
         return found
     count, piece = mesh.vertex_components
     piece = piece[mesh.faces[:, 0]]
@@ -131,6 +146,30 @@ def find_copies(given: PolygonMesh) -> Copies | None:
         # An outline and what it is drawn around may have places in common, where a normal is 0, but no vertices.
         found = _skins(given, Pieces.of(given, arange(mesh.n_vertices)))
     return found
+
+
+def _interior(given: PolygonMesh, is_interior: np.ndarray | None, *, half: bool) -> Copies | None:
+    """Interior faces, (p,) bool, as copies of what is nearest, on the side from which they look away.
+
+    half : whether the mesh is one side of what is decomposed, and its borders in the plane are none.
+    """
+    from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
+
+    if is_interior is None:
+        return None
+    mesh, original, home = given.triangles, arange(given.n_polygons), arange(given.triangles.n_vertices)
+    _, middle, normal = measured_polygons(given)
+    kept = np.flatnonzero(~is_interior)
+    inverted = measured(mesh, np.zeros(mesh.n_faces, np.int64), 1)[2][0] < 0
+    start = middle[is_interior] + ASIDE * mesh.diagonal * normal[is_interior] * (1.0 if inverted else -1.0)
+    original[is_interior] = kept[nearest(search_tree(middle[kept]), start)[1]]
+    is_kept = ~mesh.used
+    is_kept[mesh.faces[~is_interior[given.polygon]]] = True
+    its, others = np.flatnonzero(is_kept & mesh.used), np.flatnonzero(~is_kept)
+    home[others] = its[nearest(search_tree(mesh.vertices[its]), mesh.vertices[others])[1]]
+    found = _apart(original, home)
+    n_rims = 0 if half else _rims(mesh, ~is_interior[given.polygon])
+    return None if found is None else replace(found, apart=False, interior=True, n_rims=n_rims)
 
 
 def _inner_sides(given: PolygonMesh, pieces: Pieces) -> Copies | None:

@@ -9,13 +9,14 @@ import numpy as np
 
 from ..arrays.indexing import bounds_of_each, place_among, sums_by
 from ..arrays.int64 import arange
-from ..arrays.vectors import lengths, middles_of_each, row_products, unit
+from ..arrays.vectors import inner_products, lengths, middles_of_each, row_products, second_moments, unit
 from .polygons import PolygonMesh
 from .triangles import TriMesh, vertex_components
 
 # What the direction of normals counts where the nearest polygon is sought, in diameters of the piece that has it.
 TURN = 0.03
 MOST_POINTS = 100_000  # scattered on all of them, at most
+FULL = 0.75  # share of what is around a solid above which it fills it
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +83,12 @@ def measured(mesh: TriMesh, piece: np.ndarray, count: int) -> tuple[np.ndarray, 
     area, middle = middles_of_each(piece, mesh.face_centroids, mesh.face_area, count)
     volume = np.bincount(piece, row_products(mesh.area_normals, mesh.face_centroids - middle[piece]), count)
     return area, middle, volume
+
+
+def fills_its_box(points: np.ndarray, volume: float) -> bool:
+    """Whether a piece of some volume fills the box along its principal axes, as a board; points : (k, 3), of it."""
+    _, axes = np.linalg.eigh(second_moments(points - points.mean(axis=0), np.ones(len(points))))
+    return bool(volume > FULL * np.ptp(inner_products(points, axes.T), axis=0).prod())
 
 
 def measured_polygons(given: PolygonMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -16,10 +16,10 @@ from ..arrays.indexing import place_among
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import both_ways
 from ..arrays.ties import rounded
-from ..arrays.vectors import inner_products, lengths, row_products, second_moments, unit
+from ..arrays.vectors import lengths, row_products, unit
 from .cavities import LEAST
 from .face_graph import FaceGraph, connect
-from .pieces import TURN, Pieces, measured, scattered
+from .pieces import FULL, TURN, Pieces, fills_its_box, measured, scattered
 from .polygons import PolygonMesh
 from .triangles import TriMesh
 
@@ -37,8 +37,8 @@ CREASE = 0.5  # cosine of the angle of an edge that turns outwards, and may be t
 LEAST_PATCH = 1e-3  # share of the area of the piece below which a patch is left out
 LEAST_PULL = 1e-4  # share of a patch's area that must speak for a side
 # Share of the area of a piece that is found to be of either side, at least; of what faces the other side that may face
-# its own; of the larger side that the smaller must have; and of what the outer side encloses that the wall may fill.
-MOST, MOST_WRONG, LEAST_SIDE, FULL = 0.65, 0.03, 0.2, 0.75
+# its own; and of the larger side that the smaller must have.
+MOST, MOST_WRONG, LEAST_SIDE = 0.65, 0.03, 0.2
 
 
 def may_have_walls(mesh: TriMesh, piece: np.ndarray, area: np.ndarray, volume: np.ndarray) -> bool:
@@ -87,7 +87,7 @@ def find_walls(given: PolygonMesh, pieces: Pieces) -> np.ndarray | None:
         if not len(face):  # triangles of a polygon may lie in several pieces, and are of one of them
             continue
         surface, volume = _surface(given, pieces, face, inverted=bool(pieces.volume[k] < 0)), abs(pieces.volume[k])
-        if _fills_its_box(surface, volume / 3):
+        if fills_its_box(surface.vertices, volume / 3):
             continue
         found = _along(surface, volume, float(pieces.diameter[k]))
         if found is not None:
@@ -110,12 +110,6 @@ def _surface(given: PolygonMesh, pieces: Pieces, face: np.ndarray, inverted: boo
     place = place[np.argsort(pieces.first[place])]  # places are numbered at random
     corner = place_among(place, len(used))[corner]
     return TriMesh(given.triangles.vertices[pieces.first[place]], corner[:, ::-1] if inverted else corner)
-
-
-def _fills_its_box(mesh: TriMesh, volume: float) -> bool:
-    """Whether a piece of some volume fills the box along its principal axes, as a board, and has no hollow."""
-    _, axes = np.linalg.eigh(second_moments(mesh.vertices - mesh.vertices.mean(axis=0), np.ones(mesh.n_vertices)))
-    return bool(volume > FULL * np.ptp(inner_products(mesh.vertices, axes.T), axis=0).prod())
 
 
 def _along(mesh: TriMesh, whole: float, diameter: float) -> np.ndarray | None:

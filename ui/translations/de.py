@@ -754,6 +754,10 @@ TEXTS = {
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
     "{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.":
         "Flächen, die auf einer anderen mit denselben Ecken liegen und deren Teil haben: {n}.",
+    "{n} {n:face lies|faces lie} within the solid, in its plane of symmetry, and {n:has|have} "
+    "the parts of what is nearest.":
+        "Flächen, die im Inneren des Körpers in seiner Symmetrieebene liegen und die Teile des Nächstgelegenen haben: "
+        "{n}.",
     "{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner wall, and "
     "{n:has|have} their parts.":
         "Flächen, die als zweite Haut, etwa als Kontur oder Innenwand, an anderen entlanglaufen und deren Teile "

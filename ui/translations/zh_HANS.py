@@ -692,6 +692,9 @@ TEXTS = {
     "{n} {n:edge joins|edges join} more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
     "{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.":
         "{n} 个面与另一个顶点相同的面重合，属于同一部件。",
+    "{n} {n:face lies|faces lie} within the solid, in its plane of symmetry, and {n:has|have} "
+    "the parts of what is nearest.":
+        "{n} 个面位于实体内部的对称平面上，取最近处所属的部件。",
     "{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner wall, and "
     "{n:has|have} their parts.":
         "{n} 个面作为第二层表面（如描边或内壁）沿着其他面延伸，与它们属于相同的部件。",

@@ -165,6 +165,16 @@ def wall(vertices, faces, amount, rng):
     return shapes.thickened(shapes.Shape(vertices, open_), size * 10.0 ** (-3 + 2.5 * amount))
 
 
+def mirror(vertices, faces, amount, rng):
+    """What is beyond a plane pressed flat into it, and the mirror image: interior faces."""
+    x = np.maximum(vertices[:, 0], np.quantile(vertices[:, 0], amount))
+    half = np.column_stack([x - x.min(), vertices[:, 1:]])
+    both, image = np.concatenate([half, half * (-1, 1, 1)]), np.arange(len(half)) + len(half)
+    if rng.random() < 0.5:
+        image = np.where(half[:, 0] == 0, np.arange(len(half)), image)
+    return both, np.concatenate([faces, image[faces][:, ::-1]])
+
+
 def shuffle(vertices, faces, amount, rng):
     place = rng.permutation(len(vertices))
     moved = np.empty_like(vertices)
@@ -203,7 +213,7 @@ def no_vertex(vertices, faces, amount, rng):
 
 DAMAGES = {function.__name__: function for function in (
     drop, duplicate, flip, collapse, weld, coincide, noise, spike, squash, unused, crumb, fin, unjoin, finer,
-    tear, part, wall, shuffle, scale, move, refine, not_a_number, no_vertex)}
+    tear, part, wall, mirror, shuffle, scale, move, refine, not_a_number, no_vertex)}
 #: What makes a mesh that has to be refused.
 REFUSED = {"not_a_number", "no_vertex"}
 
