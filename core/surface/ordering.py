@@ -27,7 +27,7 @@ from ..arrays.indexing import (
 )
 from ..arrays.int64 import arange, full
 from ..arrays.ties import DENSE, TIE, ranks
-from ..arrays.vectors import box_diagonal, inner_products, second_moments, weighted_sum
+from ..arrays.vectors import box_diagonal, inner_products, middles_of_each, second_moments, weighted_sum
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangles import TriMesh, of_corners
 from .diagonals import divided_by_shape, outer_first
@@ -135,12 +135,16 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     given : PolygonMesh. together : bool. Returns the same surface, with quadrilaterals ``divided_by_shape``, and where
     its elements are in the one given.
     """
+    divided = None
     if given.n_polygons < given.triangles.n_faces:
-        given = replace(given, triangles=divided_by_shape(given.triangles, given.polygon))
+        divided = divided_by_shape(given.triangles, given.polygon)
+        given = replace(given, triangles=divided.mesh)
     place = _places(given.triangles)
     ordering = _by_place(_at_places(given.triangles, place), given.polygon, given.n_polygons, together)
     if len(ordering.vertex) < len(place):
         ordering = _with_split_vertices(ordering, place, given)
+    if divided is not None:
+        given = replace(given, triangles=divided.by_order(inverse(ordering.vertex)))
     triangles, triangle = ordering.sorted(given.triangles, given.polygon)
     number = inverse(ordering.polygon)[given.polygon[triangle]]
     return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
@@ -282,7 +286,10 @@ def _in_own_frame(
     Places are from its middle, in units of the largest coordinate of a vertex with a face.
     """
     weight = mesh.face_area if mesh.area > 0 else np.ones(mesh.n_faces)  # a piece may have none
-    middle = weighted_sum(weight, mesh.face_centroids) / weight.sum()
+    center, has_polygons = mesh.face_centroids, len(polygon) > polygon.max(initial=-1) + 1
+    if has_polygons:  # however they are divided
+        weight, center = middles_of_each(polygon, center, weight, int(polygon.max()) + 1)
+    middle = weighted_sum(weight, center) / weight.sum()
     used = np.flatnonzero(mesh.used)
     if vertex_rank is not None:
         used = used[stable_order(vertex_rank[used])]
@@ -300,9 +307,9 @@ def _in_own_frame(
         return np.delete(mesh.edges.vertices, within, axis=0)
 
     counts = [lambda: meeting(mesh.faces)]
-    if len(polygon) > polygon.max(initial=-1) + 1:  # how polygons are divided counts only where they do not tell
+    if has_polygons:  # how they are divided counts only where they do not tell
         counts.insert(0, lambda: meeting(outlines()))
-    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used], counts)
+    axes = _own_axes(center - middle, weight, corner[used], counts)
     corner = inner_products(corner, axes)
     return corner / max(np.abs(corner).max(), 1e-300), axes
 
