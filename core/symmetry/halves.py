@@ -14,6 +14,7 @@ from ..arrays.vectors import box_diagonal
 from ..errors import MeshError
 from ..mesh.arguments import numbers
 from ..mesh.corners import CornerTable, next_of_owner
+from ..mesh.interior import FLAT
 from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
 from .plane import MirrorPlane
@@ -92,7 +93,7 @@ def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable
     image : (n,) int64
         Vertex of the whole that is the mirror image of each; on the plane, itself.
     """
-    border = half.edges[half.n_edge_faces == 1]
+    border = half.edges[open_edges(half, mirror)]
     vertices, image = _with_images(half.vertices, half.corner_vertex, border, mirror)
     first = np.searchsorted(half.corner_face, half.corner_face)
     last = np.searchsorted(half.corner_face, half.corner_face, side="right") - 1
@@ -102,6 +103,18 @@ def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable
     end = start[next_of_owner(face)]
     edges, corner_edge = distinct_pairs(np.minimum(start, end), np.maximum(start, end))
     return CornerTable(vertices, edges, start, corner_edge, face, 2 * half.n_faces), image
+
+
+def open_edges(half: CornerTable, mirror: MirrorPlane) -> np.ndarray:
+    """Which edges have one face, (e,) bool, those in the plane not counted: they are within the whole.
+
+    half : CornerTable. mirror : MirrorPlane.
+    """
+    off = np.abs(mirror.heights(half.vertices)) > FLAT * box_diagonal(half.vertices[half.corner_vertex])
+    beside = np.bincount(half.corner_face, off[half.corner_vertex], half.n_faces) > 0
+    if not beside.any():  # nothing but a figure in the plane
+        return half.n_edge_faces == 1
+    return np.bincount(half.corner_edge, beside[half.corner_face], len(half.edges)) == 1
 
 
 def _with_images(vertices: np.ndarray, used: np.ndarray, border: np.ndarray,

@@ -9,7 +9,7 @@ from core import decompose
 from core.mesh.corners import CornerTable
 from core.mesh.polygons import PolygonMesh
 from core.result.whole import whole_of
-from core.symmetry.halves import completed, completed_table
+from core.symmetry.halves import completed, completed_table, open_edges
 from core.symmetry.plane import MirrorPlane
 
 X = np.array([1.0, 0, 0, 0])
@@ -59,7 +59,8 @@ def test_a_part_that_meets_its_image_along_little_is_there_twice():
     assert counts[1].cuts.tolist() == [[0, 1]]
 
 
-@pytest.mark.parametrize("shape", [shapes.box_quads(), shapes.half_of(shapes.torus())])
+@pytest.mark.parametrize("shape", [
+    (shapes.box_quads()[0] + 1.0, shapes.box_quads()[1]), shapes.half_of(shapes.torus())])
 def test_corner_by_corner_as_by_triangles(shape):
     """The box has no border: nothing of it is joined."""
     given = CornerTable.of(*shape)
@@ -74,6 +75,18 @@ def test_corner_by_corner_as_by_triangles(shape):
     np.testing.assert_array_equal(table.edges[table.corner_edge],
                                   np.sort([table.corner_vertex, table.corner_vertex[table.next_corner]], axis=0).T)
     np.testing.assert_allclose(table.vertices[image], given.vertices * (-1, 1, 1), atol=1e-12)
+
+
+def test_what_closes_a_half_in_the_plane_does_not_part_it_from_its_image():
+    vertices, quads = shapes.box_quads()
+    half, mirror = CornerTable.of(vertices, quads), MirrorPlane(X[:3], 0.0)
+    inside = (vertices[quads][:, :, 0] == 0).all(axis=1)
+    table, image = completed_table(half, mirror)
+    _, expected = completed_table(CornerTable.of(vertices, quads[~inside]), mirror)
+    assert (image == expected).all()
+    beside = np.tile(~inside, 2)[table.corner_face]
+    assert (np.bincount(table.corner_edge[beside], minlength=len(table.edges)) == 2).all()
+    assert open_edges(half, mirror).sum() == inside.sum() * 4 == 4
 
 
 def test_whole_models_have_no_contacts_of_the_half():

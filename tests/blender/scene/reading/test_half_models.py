@@ -58,6 +58,24 @@ def test_the_parts_of_the_whole(mirrored, half, package):
     assert importlib.import_module(f"{package}.scene.store").has_parts(mirrored)
 
 
+def test_a_half_that_is_closed_at_the_plane_has_the_parts_of_an_open_one(make):
+    """What closes it would be a wall inside of what is seen, or part it in two."""
+    solid = np.zeros((12, 8, 7), bool)
+    solid[6:, :, 6] = solid[11, [[0], [7]]] = True
+    vertices, quads = shapes.blocks(solid)
+    inside = (np.abs(vertices[quads][:, :, 0]) < 1e-9).all(axis=1)
+    numbers = []
+    for faces in (quads, quads[~inside]):
+        table = make((vertices, faces), "Table")
+        table.modifiers.new("Mirror", "MIRROR")
+        assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+        numbers.append(face_numbers(table.data))
+    closed, opened = numbers
+    assert (closed[~inside] == opened).all()
+    assert set(closed[inside]) <= set(opened)
+    assert len(set(opened)) == 3  # the top, and two legs
+
+
 def own(obj):
     obj.scale, obj.rotation_euler, obj.location = (1.5, 0.7, 2.0), (0.3, 1.0, -0.4), (1, 2, 3)
 
