@@ -191,7 +191,9 @@ def grown(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     allowed = _not_locked(mesh, stored, number) & (_own_side(stored, number) > _BESIDE)
     taken = growth(stored.decomposition, stored.shown == number, allowed)
     if taken is None:
-        raise SceneError(rpt_("Nothing is left around {name} that is not locked.").format(
+        others = pins.locked_others(mesh, number)
+        raise SceneError((rpt_("Nothing is left around {name} that is not locked.") if others else
+                          rpt_("Nothing is left around {name} that it could take.")).format(
             name=part_names.part_name(mesh, number)))
     return _moved(mesh, stored, taken, number)
 

@@ -985,6 +985,7 @@ TEXTS = {
     "Nothing of {name} would be cut off there. Point at another place.":
         "Dort würde von {name} nichts abgeschnitten. Bitte auf eine andere Stelle zeigen.",
     "Nothing is left around {name} that is not locked.": "Um {name} ist nichts mehr, was nicht gesperrt ist.",
+    "Nothing is left around {name} that it could take.": "Um {name} ist nichts mehr, was dazugenommen werden könnte.",
     "{name} cannot give away anything more.": "{name} kann nichts mehr abgeben.",
     "Nothing would be left of the part. Slide the boundary less far.":
         "Von dem Teil bliebe nichts übrig. Bitte die Grenze weniger weit verschieben.",

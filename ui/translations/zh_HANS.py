@@ -874,6 +874,7 @@ TEXTS = {
     "Nothing of {name} would be cut off there. Point at another place.":
         "在此处不会从 {name} 切下任何部分。请指向另一个位置。",
     "Nothing is left around {name} that is not locked.": "{name} 周围没有未锁定的部分。",
+    "Nothing is left around {name} that it could take.": "{name} 周围没有可以并入的部分。",
     "{name} cannot give away anything more.": "{name} 无法再让出任何部分。",
     "Nothing would be left of the part. Slide the boundary less far.": "部件将不剩任何部分。请减小边界的滑移距离。",
     "Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel":

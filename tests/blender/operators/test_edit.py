@@ -285,6 +285,16 @@ def test_grow_and_shrink_move_the_boundary(obj, result):
     check(obj)
 
 
+@pytest.mark.parametrize("lock", [False, True])
+def test_what_cannot_grow_says_why(obj, result, lock):
+    """It said that nothing was left that is not locked, where nothing was."""
+    result.n_parts = 1 + lock
+    result.parts[-1].locked = lock
+    choose(result, result.parts[0].number)
+    with pytest.raises(RuntimeError, match="that is not locked" if lock else "that it could take"):
+        bpy.ops.reeb_parts.grow()
+
+
 @pytest.mark.parametrize("new", [False, True])
 def test_faces_are_assigned(obj, result, new):
     before = numbers(obj.data)
