@@ -47,6 +47,11 @@ def of_other_meshes() -> Iterator[bpy.types.Object]:
     return (source for source in _sources() if source is not None and not store.has_parts(source))
 
 
+def sources_with_parts() -> Iterator[bpy.types.Object]:
+    """Objects that have a graph and parts."""
+    return (source for source in _sources() if source is not None and store.has_parts(source))
+
+
 def of_removed() -> Iterator[bpy.types.Collection]:
     """Collections of graphs whose objects were removed from the file, as in the Outliner."""
     return (collection for collection in bpy.data.collections

@@ -33,11 +33,35 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The slider was moved: the modifier is there while there is something for it to do."""
     obj = made.id_data
     _leave_copies(obj)
-    if made.explode or (obj.animation_data and obj.animation_data.action):
+    if made.explode or _is_animated(obj):
         _ensure(obj)
     else:
         modifiers.remove_nodes(obj, OURS)
     graph_follow.soon(obj)  # what evaluates the object first may be a tool, of which no handler is told
+
+
+def _is_animated(obj: bpy.types.Object) -> bool:
+    """Whether the slider may be moved by an action, or is by a driver."""
+    return _is_driven(obj) or bool(obj.animation_data and obj.animation_data.action)
+
+
+def _is_driven(obj: bpy.types.Object) -> bool:
+    """Whether a driver moves the slider."""
+    return bool(obj.animation_data) and obj.animation_data.drivers.find(PROPERTY) is not None
+
+
+def waits(obj: bpy.types.Object) -> bool:
+    """Whether a driver moves the slider of an object with parts, and there is no modifier that would heed it.
+
+    Blender tells of a property that is changed by hand or a script, and not of one that a driver changes.
+    """
+    return _is_driven(obj) and obj.is_editable and obj.mode != "EDIT" and store.has_parts(obj) and find(obj) is None
+
+
+def begin(obj: bpy.types.Object) -> None:
+    """Give an object that ``waits`` its modifier."""
+    _ensure(obj)
+    graph_follow.soon(obj)
 
 
 def _leave_copies(obj: bpy.types.Object) -> None:

@@ -279,6 +279,26 @@ def test_a_graph_goes_with_the_mesh_that_it_is_of(package, make, obj, settings):
     assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []
 
 
+def test_another_mesh_with_parts_has_the_graph_of_these(package, make, obj, settings):
+    """Link Object Data onto a mesh that has parts left the graph of the former ones until the next run."""
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
+    other = make(shapes.dumbbell(), "Other")
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    expected = [item.location[:] for item in other.children if item.type == "EMPTY"]
+    former, also = obj.data, obj.children[:]
+    obj.select_set(True)
+    for mesh in (other.data, former):
+        obj.data = mesh
+        bpy.context.view_layer.update()
+        assert watch.bpy.app.timers.is_registered(watch._tidy)
+        watch._tidy()  # as the timer does
+        bpy.app.timers.unregister(watch._tidy)
+        places = [item.location[:] for item in obj.children if item.type == "EMPTY"]
+        assert (places == expected) == (mesh == other.data)
+        assert not watch._is_untidy()
+    assert len(obj.children) == len(also)
+
+
 def _deleted(collection):
     """As the Outliner deletes a collection: what is in it moves up."""
     for item in list(collection.objects):

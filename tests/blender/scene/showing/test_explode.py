@@ -97,6 +97,24 @@ def test_the_slider_moves_what_is_there(obj):
     assert len(obj.modifiers) == 1
 
 
+@pytest.mark.parametrize("face_attribute", [True, False])
+def test_a_driver_alone_moves_the_parts(package, obj, face_attribute):
+    """They stayed until the slider had been moved by hand, and went back when that came to 0."""
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
+    bpy.ops.reeb_parts.decompose(face_attribute=face_attribute)
+    obj.driver_add("reeb_parts_made.explode").driver.expression = "0.5"
+    bpy.context.view_layer.update()
+    assert bpy.app.timers.is_registered(watch._explode)
+    watch._explode()  # as the timer does
+    bpy.app.timers.unregister(watch._explode)
+    assert shown(obj) == pytest.approx(expected(obj, 0.5), abs=1e-4)
+    obj.reeb_parts_made.explode = 0.0
+    assert shown(obj) == pytest.approx(expected(obj, 0.5), abs=1e-4)
+    obj.driver_remove("reeb_parts_made.explode")
+    obj.reeb_parts_made.explode = 0.0
+    assert not obj.modifiers
+
+
 def test_it_follows_the_detail(obj):
     bpy.ops.reeb_parts.decompose()
     obj.reeb_parts_made.explode = 1.0
