@@ -64,7 +64,7 @@ def remove(obj: bpy.types.Object) -> bool:
 
 
 def settle_joined(obj: bpy.types.Object) -> None:
-    """Remove what of ours came with the faces that Join has brought to a mesh with a result; Object Mode.
+    """Settle what of ours came with the faces that Join has brought to a mesh with a result; Object Mode.
 
     Until the mesh is edited, they are known by their places; from then on the numbers of parts on them, which are those
     of another list, would be taken for the mesh's own.
@@ -76,8 +76,10 @@ def settle_joined(obj: bpy.types.Object) -> None:
     numbers = _numbers(mesh)
     known = (numbers > 0) & (numbers <= part_names.MAX_NUMBER)  # what is stored may be damaged
     joined = joined_faces(mesh, np.where(known, numbers, 0)) & known
+    copies = known & ~joined & (arange(len(numbers)) >= mesh.reeb_parts.n_faces)
+    transaction.keep_mesh(mesh)
+    face_sets.lower(mesh, np.where(copies, numbers, 0))
     if joined.any():
-        transaction.keep_mesh(mesh)
         _remove_joined(obj)
         mesh.attributes[face_attribute.NAME].data.foreach_set("value", np.where(joined, 0, numbers).astype(np.int32))
 

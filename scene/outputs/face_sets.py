@@ -56,7 +56,7 @@ def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
         before = np.ones_like(now)
         if _KEPT in mesh.attributes:
             before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
-        if _are_of_parts(now, numbers):
+        if _are_of_parts(mesh, now, numbers):
             others = now[numbers == 0]
             if _are_ours(mesh):  # what comes back of these then
                 others = before[numbers == 0] if mesh.reeb_parts.had_face_sets else np.ones_like(others)
@@ -87,7 +87,17 @@ def came_by_join(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
     if sets is None:
         return False
     now = mesh_arrays.read(sets.data, "value", np.int32)
-    return _are_of_parts(now, numbers) and bool((now != numbers)[numbers > 0].any())
+    return _are_of_parts(mesh, now, numbers) and bool((now != numbers)[numbers > 0].any())
+
+
+def lower(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
+    """Take back what Blender's Join has added to face sets of ours on copies of the mesh's own parts.
+
+    numbers : (p,) int32, of the parts of these faces, 0 for others.
+    """
+    if _are_ours(mesh) and came_by_join(mesh, numbers):
+        now = mesh_arrays.read(mesh.attributes[NAME].data, "value", np.int32)
+        mesh.attributes[NAME].data.foreach_set("value", np.where(numbers > 0, numbers, now))
 
 
 def keep(mesh: bpy.types.Mesh, new: np.ndarray, numbers: np.ndarray) -> None:
@@ -111,17 +121,32 @@ def keep_drawn(mesh: bpy.types.Mesh) -> None:
     if not sets or not written:
         return
     numbers, now = (mesh_arrays.read(each.data, "value", np.int32) for each in (written, sets))
-    if not _are_of_parts(now, numbers):
+    if not _are_of_parts(mesh, now, numbers):
         _keep_aside(mesh, now, (numbers > 0) & (now != numbers))
 
 
-def _are_of_parts(sets: np.ndarray, numbers: np.ndarray) -> bool:
+def _are_of_parts(mesh: bpy.types.Mesh, sets: np.ndarray, numbers: np.ndarray) -> bool:
     """Whether the face sets of all faces of parts, numbers above 0, are these; (p,) int32 each.
 
-    Blender's Join adds a number to all of an object, so that no two objects share a face set.
+    Blender's Join adds a number to all of an object, a larger one to each that follows, so that no two objects share a
+    face set.
     """
-    beyond = (sets - numbers)[numbers > 0]
-    return not len(beyond) or not np.ptp(beyond)
+    known = np.flatnonzero(numbers > 0)
+    added = np.diff((sets - numbers)[known])
+    first = known[1:][added > 0]
+    return bool((added >= 0).all()) and _begin_apart(mesh, first)
+
+
+def _begin_apart(mesh: bpy.types.Mesh, first: np.ndarray) -> bool:
+    """Whether no face before some faces, (k,) int64, has a vertex as high as those of the faces from there on.
+
+    So it is with what Blender's Join puts together: faces and vertices of each object lie behind those before.
+    """
+    if not len(first):
+        return True
+    vertex, face = mesh_arrays.face_corners(mesh)
+    begin = np.searchsorted(face, first)
+    return bool((np.maximum.accumulate(vertex)[begin - 1] < np.minimum.accumulate(vertex[::-1])[::-1][begin]).all())
 
 
 def _keep_aside(mesh: bpy.types.Mesh, now: np.ndarray, some: np.ndarray) -> None:

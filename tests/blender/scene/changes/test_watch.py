@@ -64,6 +64,30 @@ def test_what_came_by_join_is_settled_before_the_next_edit(look, make, copied):
     assert not any(edge.use_seam for edge in mesh.edges)
 
 
+@pytest.mark.parametrize("own", [False, True])
+def test_face_sets_of_several_models_that_were_joined_are_ours(look, make, own):
+    """Join adds another number to those of each: of three, they stayed for good, as if they had been drawn."""
+    models = [make(shapes.dumbbell(24, 10), name) for name in "ABC"]
+    for place, obj in enumerate(models):
+        obj.data.transform(Matrix.Translation((20 * place, 0, 0)))
+        activate(obj)
+        if own or not place:
+            bpy.ops.reeb_parts.decompose(graph=False, n_parts=2, face_sets=True)
+        else:
+            obj.data = models[0].data.copy()
+            obj.data.transform(Matrix.Translation((20 * place, 0, 0)))
+    for obj in models:
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = models[0]
+    bpy.ops.object.join()
+    mesh = models[0].data
+    look._waiting.add(mesh.session_uid)
+    look._look()
+    edit(models[0], bpy.ops.mesh.delete, faces=slice(5), type="FACE")
+    bpy.ops.reeb_parts.decompose(graph=False)
+    assert ".sculpt_face_set" not in mesh.attributes
+
+
 def test_a_graph_is_hidden_at_the_frames_at_which_its_model_is(look, obj, result):
     """It stayed, alone, where the hiding is animated."""
     for frame, hidden in ((1, False), (2, True), (3, False)):
