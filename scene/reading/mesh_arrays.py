@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from ...core.arrays.indexing import renumbered, run_starts
+from ...core.arrays.int64 import arange
 from ...core.arrays.vectors import cross, lengths, row_products
 from ...core.mesh.corners import CornerTable
 
@@ -194,11 +195,19 @@ def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> Corn
 
 
 def mesh_of(table: CornerTable, name: str) -> bpy.types.Mesh:
-    """A new mesh of the faces of a table, for the caller to remove; its edges have numbers of their own."""
+    """A new mesh of the faces of a table, for the caller to remove; its edges have numbers of their own.
+
+    Where a face has a vertex twice, as a sliver between split vertices that are joined has, the second corner has a
+    vertex of its own, behind those of the table: Blender would never come to an end with such a face in Edit Mode.
+    """
     mesh = bpy.data.meshes.new(name)
-    starts = run_starts(table.corner_face)
-    faces = [corners.tolist() for corners in np.split(table.corner_vertex, starts)[1:]]
-    mesh.from_pydata(table.vertices.tolist(), [], faces)
+    starts, vertex = run_starts(table.corner_face), table.corner_vertex.copy()
+    order = np.lexsort((vertex, table.corner_face))
+    again = order[1:][(np.diff(vertex[order]) == 0) & (np.diff(table.corner_face[order]) == 0)]
+    points = np.concatenate([table.vertices, table.vertices[vertex[again]]])
+    vertex[again] = arange(len(table.vertices), len(points))
+    faces = [corners.tolist() for corners in np.split(vertex, starts)[1:]]
+    mesh.from_pydata(points.tolist(), [], faces)
     return mesh
 
 

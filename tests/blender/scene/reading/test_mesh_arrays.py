@@ -89,3 +89,18 @@ def test_corners_are_read_again_once_they_are_in_another_order(scene_module, mak
     wanted = mesh_arrays.joined_table(mesh)
     for name in ("edges", "corner_vertex", "corner_edge", "corner_face"):
         np.testing.assert_array_equal(getattr(found, name), getattr(wanted, name))
+
+
+def test_a_sliver_between_split_vertices_is_a_face_that_blender_can_edit(scene_module, make):
+    """Joined, it had a vertex twice: Unwrap along Cuts never came to an end, in Blender's Edit Mode."""
+    mesh_arrays = scene_module("reading.mesh_arrays")
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3], [0, 0, 1]])
+    soup = make((square[faces].reshape(-1, 3), np.arange(9).reshape(3, 3))).data
+    table = mesh_arrays.joined_table(soup)
+    assert table.corner_vertex[6] == table.corner_vertex[7]
+    mesh = mesh_arrays.mesh_of(table, "Joined")
+    assert not mesh.validate()  # True where it had to be corrected
+    found = mesh_arrays.corner_table(mesh)
+    np.testing.assert_array_equal(found.vertices[found.corner_vertex], square[faces].reshape(-1, 3))
+    np.testing.assert_array_equal(found.corner_vertex[:7], table.corner_vertex[:7])
