@@ -39,12 +39,13 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
     old = piece.data
     found = piece_checks.check(old, stretch)
     before, mesh = found[0], old
-    for step in (_agreeing, _closed, _turned, _without_crossing_caps):
+    for step, faults in ((_agreeing, _wrong_ways), (_closed, _faults), (_turned, _wrong_ways),
+                         (_without_crossing_caps, _faults)):
         candidate = mesh.copy()
         step(candidate, found[1])
         cap_looks.map_caps(candidate)
         checked = piece_checks.check(candidate, stretch)
-        if _faults(checked[0]) < _faults(found[0]):
+        if faults(checked[0]) < faults(found[0]):
             mesh, found = _replaced(mesh, candidate, old), checked
         else:
             bpy.data.meshes.remove(candidate)
@@ -61,6 +62,11 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
 def _faults(found: Check) -> int:
     return (found.open_edges + found.branching_edges + found.contrary_edges + found.crossing_faces
             + found.inside_out)
+
+
+def _wrong_ways(found: Check) -> int:
+    """What turning faces can mend. Polygons that are turned are divided otherwise, so that others cross each other."""
+    return found.contrary_edges + found.inside_out
 
 
 def _replaced(mesh: bpy.types.Mesh, better: bpy.types.Mesh, old: bpy.types.Mesh) -> bpy.types.Mesh:

@@ -2,6 +2,7 @@
 """What is wrong with a piece is told, selected and repaired."""
 
 import importlib
+from dataclasses import replace
 
 import bmesh
 import bpy
@@ -125,6 +126,28 @@ def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, sh
     assert checks.kept(piece).sound
     assert borders(piece.data) == (set(), 0)
     assert volume(piece.data) == pytest.approx(size, rel=1e-3)
+
+
+@pytest.mark.parametrize("inside_out", [False, True])
+def test_a_repaired_piece_looks_outwards_however_many_faces_cross(package, make, checks, monkeypatch, inside_out):
+    """Of faces that nearly lie on each other, others are found to cross once they are turned: a piece that looked
+    outwards was turned for that, or one that looked inwards was not.
+    """
+    repairs = importlib.import_module(f"{package}.scene.pieces.piece_repairs")
+    octahedron = shapes.octahedron()
+    obj = make(shapes.together(octahedron, shapes.moved(octahedron, (0.4, 0.3, 0.2))), "Crossed")
+    if inside_out:
+        obj.data.flip_normals()
+    check = checks.check
+
+    def found_otherwise(mesh, stretch):
+        found, faults = check(mesh, stretch)
+        more = 0 if found.inside_out else 3
+        return replace(found, crossing_faces=found.crossing_faces + more), faults
+
+    monkeypatch.setattr(checks, "check", found_otherwise)
+    repairs.repair(obj, np.eye(3))
+    assert not check(obj.data, np.eye(3))[0].inside_out
 
 
 def test_what_refers_to_a_mesh_refers_to_the_repaired_one(obj):
