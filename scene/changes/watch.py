@@ -16,8 +16,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import handlers, redraw, store, targets, transaction
-from ..errors import SceneError
-from ..graph import graph_finding, graph_follow, graph_objects, graph_removal, graph_visibility
+from ..graph import graph_finding, graph_follow, graph_removal, graph_visibility
 from ..ours import orphan_outputs
 from ..pieces import origins, piece_objects
 from ..reading import fingerprints, seen_points
@@ -29,7 +28,6 @@ REST = 0.3  # seconds
 MOST_EDITED = 200_000  # vertices of a mesh that is looked at in Edit Mode: less than a tenth of a second
 
 _waiting: set[int] = set()  # meshes by session_uid
-_meshes: dict[int, int] = {}  # of decomposed objects, when they were looked at last, both by session_uid
 _last = 0.0
 
 
@@ -60,7 +58,7 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     # Link Object Data changes no collection. Collections are gone through only where objects are not just moved.
     replaced = (depsgraph.id_type_updated("OBJECT")
                 and any(update.is_updated_geometry for update in depsgraph.updates)
-                and (any(graph_finding.of_other_meshes()) or bool(_with_other_parts())))
+                and any(graph_finding.of_other_meshes()))
     if (replaced or (deleted and _is_untidy())) and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
@@ -72,16 +70,8 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     for obj in found:
         seen_points.evaluated(obj)
         graph_follow.soon(obj)
-        _meshes.setdefault(obj.session_uid, obj.data.session_uid)
     _look_soon(obj.data for obj in found)
-    if any(map(explode.waits, found)) and not bpy.app.timers.is_registered(_explode):
-        bpy.app.timers.register(_explode, first_interval=0.0)
-
-
-def _with_other_parts() -> list[bpy.types.Object]:
-    """Objects that have a graph and got another mesh with parts, as by Link Object Data, since they were looked at."""
-    return [obj for obj in graph_finding.sources_with_parts()
-            if _meshes.get(obj.session_uid, obj.data.session_uid) != obj.data.session_uid]
+    _explode_soon(found)
 
 
 def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
@@ -94,9 +84,11 @@ def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
 @persistent
 def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Another frame is shown, which is no edit; whether a model is hidden may be animated."""
-    for obj in _changed_objects(depsgraph):
+    found = _changed_objects(depsgraph)
+    for obj in found:
         seen_points.evaluated(obj)
         graph_follow.soon(obj)
+    _explode_soon(found)
     if not bpy.app.is_job_running("RENDER"):  # which shows frames of its own
         _hide_graphs_soon()
 
@@ -107,8 +99,7 @@ def _opened(*_: object) -> None:
     graph_follow.forget()
     graph_visibility.forget()
     seen_points.forget()
-    _meshes.clear()
-    _meshes.update((obj.session_uid, obj.data.session_uid) for obj in graph_finding.sources_with_parts())
+    graph_finding.know_all()
     for collection in bpy.data.collections:
         source = graph_finding.source_of(collection)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
@@ -146,6 +137,12 @@ def _settle_joined(mesh: bpy.types.Mesh) -> None:
             orphan_outputs.settle_joined(users[0])
 
 
+def _explode_soon(changed: list[bpy.types.Object]) -> None:
+    """Give those of some objects their modifier whose slider a driver alone moves."""
+    if any(map(explode.waits, changed)) and not bpy.app.timers.is_registered(_explode):
+        bpy.app.timers.register(_explode, first_interval=0.0)
+
+
 def _explode() -> None:
     """Sliders that are driven only, which nobody has moved, do what they say."""
     with transaction.transaction():
@@ -157,7 +154,7 @@ def _explode() -> None:
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
     return (any(graph_finding.left_behind()) or any(graph_finding.of_removed()) or any(origins.left_behind())
-            or bool(_with_other_parts()) or bool(piece_objects.hidden_for_nothing(bpy.context)))
+            or bool(piece_objects.hidden_for_nothing(bpy.context)))
 
 
 @persistent
@@ -170,6 +167,7 @@ def _hide_graphs_soon(*_: object) -> None:
 @persistent
 def _undone(*_: object) -> None:
     graph_visibility.forget()
+    graph_finding.know_all()
     _hide_graphs_soon()
 
 
@@ -180,14 +178,9 @@ def _hide_graphs() -> None:
 
 
 def _tidy() -> None:
-    """Remove the graphs of objects that were deleted; their pieces stay. Show objects whose pieces were deleted.
-
-    Objects that got another mesh with parts get the graph of these.
-    """
+    """Remove the graphs of objects that were deleted; their pieces stay. Show objects whose pieces were deleted."""
     with transaction.transaction():
-        for obj in _with_other_parts():
-            _meshes[obj.session_uid] = obj.data.session_uid
-            _draw_anew(obj)
+        # No other graphs are drawn: what is made without a step of undo of its own can end Blender at undo.
         for obj in list(graph_finding.left_behind()):
             graph_removal.remove(obj)
         graph_removal.remove_of_removed()
@@ -195,18 +188,6 @@ def _tidy() -> None:
             origins.forget_original(collection)
         for obj in piece_objects.hidden_for_nothing(bpy.context):
             piece_objects.show_original(bpy.context, obj)
-
-
-def _draw_anew(obj: bpy.types.Object) -> None:
-    """Draw the graph of an object's parts in place of that of other ones, or none if they are out of date."""
-    try:
-        numbered = store.load(obj.data).shown_parts()
-    except SceneError:
-        graph_removal.remove(obj)
-    else:
-        shown = graph_objects.is_shown(bpy.context, obj)
-        graph_objects.draw_graph(bpy.context, obj, numbered, bpy.context.scene.reeb_parts)
-        graph_objects.set_hidden(bpy.context, obj, not shown)
 
 
 @persistent
@@ -235,7 +216,6 @@ def unregister() -> None:
     graph_follow.stop()
     graph_visibility.forget()
     seen_points.forget()
-    _meshes.clear()
     for timer in (_look, _tidy, _explode, _hide_graphs):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)

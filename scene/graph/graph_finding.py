@@ -17,6 +17,7 @@ SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 ROLES = NODE, ARCS = "node", "arcs"  # of the empties, and of the curve
 _TYPES = {NODE: "EMPTY", ARCS: "CURVE"}
+_known: dict[int, tuple[int, float]] = {}  # by session_uid of objects: mesh of the graph, and how long its run took
 _ON_NODE = {"node": int, "part": int, "kind": str}  # custom properties, which the user may have deleted or changed
 
 
@@ -37,19 +38,35 @@ def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
 
 
 def left_behind() -> Iterator[bpy.types.Object]:
-    """Objects that have a graph and are in no scene any more, or got a mesh without parts."""
+    """Objects that have a graph and are in no scene any more, or got another mesh, without parts or with other ones."""
     return (source for source in _sources()
-            if source is not None and not (source.users_scene and store.has_parts(source)))
+            if source is not None and not (source.users_scene and _is_of_mesh(source)))
 
 
 def of_other_meshes() -> Iterator[bpy.types.Object]:
-    """Objects that have a graph and got a mesh without parts, as by Link Object Data."""
-    return (source for source in _sources() if source is not None and not store.has_parts(source))
+    """Objects that have a graph and got another mesh, without parts or with other ones, as by Link Object Data."""
+    return (source for source in _sources() if source is not None and not _is_of_mesh(source))
 
 
-def sources_with_parts() -> Iterator[bpy.types.Object]:
-    """Objects that have a graph and parts."""
-    return (source for source in _sources() if source is not None and store.has_parts(source))
+def know(obj: bpy.types.Object) -> None:
+    """The graph of an object that has parts is that of the mesh that it has now."""
+    _known[obj.session_uid] = obj.data.session_uid, obj.data.reeb_parts.seconds
+
+
+def know_all() -> None:
+    """So are all graphs, after a file was opened or a step undone."""
+    _known.clear()
+    for source in _sources():
+        if source is not None and store.has_parts(source):
+            know(source)
+
+
+def _is_of_mesh(source: bpy.types.Object) -> bool:
+    """Whether an object has the parts that its graph is of; a copy of the mesh has them, too."""
+    if not store.has_parts(source):
+        return False
+    mesh, seconds = _known.get(source.session_uid, (source.data.session_uid, 0.0))
+    return mesh == source.data.session_uid or seconds == source.data.reeb_parts.seconds
 
 
 def of_removed() -> Iterator[bpy.types.Collection]:

@@ -114,6 +114,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     made_objects.hand_on(
         earlier.gone, [(graph_finding.stands_for(item), item) for item in graph_finding.inside(collection)])
     update_parts(obj, numbered)
+    graph_finding.know(obj)
     return earlier.kept
 
 

@@ -279,24 +279,23 @@ def test_a_graph_goes_with_the_mesh_that_it_is_of(package, make, obj, settings):
     assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []
 
 
-def test_another_mesh_with_parts_has_the_graph_of_these(package, make, obj, settings):
+@pytest.mark.parametrize("same", [False, True])
+def test_a_graph_goes_where_another_mesh_has_other_parts(package, make, obj, settings, same):
     """Link Object Data onto a mesh that has parts left the graph of the former ones until the next run."""
     watch = importlib.import_module(f"{package}.scene.changes.watch")
     other = make(shapes.dumbbell(), "Other")
     bpy.ops.reeb_parts.decompose(method="berretti")
-    expected = [item.location[:] for item in other.children if item.type == "EMPTY"]
-    former, also = obj.data, obj.children[:]
-    obj.select_set(True)
-    for mesh in (other.data, former):
-        obj.data = mesh
-        bpy.context.view_layer.update()
-        assert watch.bpy.app.timers.is_registered(watch._tidy)
-        watch._tidy()  # as the timer does
-        bpy.app.timers.unregister(watch._tidy)
-        places = [item.location[:] for item in obj.children if item.type == "EMPTY"]
-        assert (places == expected) == (mesh == other.data)
-        assert not watch._is_untidy()
-    assert len(obj.children) == len(also)
+    obj.data = obj.data.copy() if same else other.data  # as Make Single User does
+    bpy.context.view_layer.update()
+    assert watch._is_untidy() == (not same)
+    watch._tidy()  # as a timer does
+    assert ("Reeb Graph Tree" in bpy.data.collections) == bool(obj.children) == same
+    activate(obj)
+    for _ in range(2 - same):
+        bpy.ops.reeb_parts.show_graph()
+    bpy.context.view_layer.update()
+    assert bpy.data.collections.get("Reeb Graph Tree") is not None
+    assert not watch._is_untidy()
 
 
 def _deleted(collection):
