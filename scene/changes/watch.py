@@ -14,9 +14,11 @@ from collections.abc import Iterable
 import bmesh
 import bpy
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import handlers, redraw, store, targets, transaction
 from ..graph import graph_finding, graph_follow, graph_removal, graph_visibility
+from ..modes import is_object_mode
 from ..ours import orphan_outputs
 from ..pieces import origins, piece_objects
 from ..reading import fingerprints, seen_points
@@ -28,6 +30,7 @@ REST = 0.3  # seconds
 MOST_EDITED = 200_000  # vertices of a mesh that is looked at in Edit Mode: less than a tenth of a second
 
 _waiting: set[int] = set()  # meshes by session_uid
+_undriven: set[int] = set()  # objects by session_uid whose sliders are driven, but do nothing after an undo
 _last = 0.0
 
 
@@ -139,16 +142,31 @@ def _settle_joined(mesh: bpy.types.Mesh) -> None:
 
 def _explode_soon(changed: list[bpy.types.Object]) -> None:
     """Give those of some objects their modifier whose slider a driver alone moves."""
-    if any(map(explode.waits, changed)) and not bpy.app.timers.is_registered(_explode):
+    if any(map(_waits, changed)) and not bpy.app.timers.is_registered(_explode):
         bpy.app.timers.register(_explode, first_interval=0.0)
 
 
+def _waits(obj: bpy.types.Object) -> bool:
+    return obj.session_uid not in _undriven and explode.waits(obj)
+
+
 def _explode() -> None:
-    """Sliders that are driven only, which nobody has moved, do what they say."""
+    """Sliders that are driven only, which nobody has moved, do what they say; a step of undo by itself.
+
+    What is made without one is not known to the steps around it, and ends Blender at undo. In other modes than Object
+    Mode steps do not hold it: there it has to wait until the object is evaluated again.
+    """
+    layer = bpy.context.view_layer
+    found = [obj for obj in layer.objects if obj is not None and _waits(obj)] if layer else []
+    if not found or not is_object_mode(bpy.context):
+        return
     with transaction.transaction():
-        for obj in bpy.context.view_layer.objects if bpy.context.view_layer else ():
-            if obj is not None and explode.waits(obj):
-                explode.begin(obj)
+        for obj in found:
+            explode.begin(obj)
+    manager = bpy.context.window_manager
+    if len(manager.windows) and not bpy.app.background:
+        with bpy.context.temp_override(window=manager.windows[0]):
+            bpy.ops.ed.undo_push(message=rpt_("Explode"))
 
 
 def _is_untidy() -> bool:
@@ -168,6 +186,9 @@ def _hide_graphs_soon(*_: object) -> None:
 def _undone(*_: object) -> None:
     graph_visibility.forget()
     graph_finding.know_all()
+    # The step was undone in which they got their modifiers: made again, nothing before could be undone.
+    _undriven.clear()
+    _undriven.update(obj.session_uid for obj in bpy.data.objects if explode.waits(obj))
     _hide_graphs_soon()
 
 
