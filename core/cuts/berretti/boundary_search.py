@@ -7,14 +7,13 @@ from collections.abc import Iterator
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import depth_first_order
 
 from ...arrays.components import components
-from ...arrays.indexing import renumbered
 from ...arrays.int64 import arange
+from ...arrays.vectors import lengths
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
+from .contour_curves import ContourCurves, contour_curves
 
 SAMPLES = 128  # number of points along a contour at which k_min is sampled
 # With r the radius of a circle as long as the contour, E_concave = max(CREASE_WORTH * r * k_min, -MAX_WORTH), in units
@@ -23,49 +22,8 @@ CREASE_WORTH = 0.1
 MAX_WORTH = 0.3
 
 
-def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    """List the edges of the mesh that a contour crosses, in order along the contour.
-
-    Parameters
-    ----------
-    sets : LevelSets
-    contour : int
-        Index of the contour in ``sets``.
-
-    Returns
-    -------
-    edge : (c,) int64
-    share : (c,) float64
-        Where the contour crosses each of them, 0..1 from the first vertex of the edge.
-    closed : bool
-        Whether the contour is a closed curve; False if it ends at borders of the surface.
-    """
-    segments = np.flatnonzero(sets.segment_contour == contour)
-    edge, local = renumbered(sets.segment_edges[segments])
-    degree = np.bincount(local.ravel())
-    n = len(edge)
-    # Where bridges join pieces, a contour has a curve on each: the longest stands for it.
-    _, curve = components(n, *local.T)
-    main = curve == np.bincount(curve).argmax()
-    graph = coo_array((np.ones(len(local), np.int8), tuple(local.T)), shape=(n, n)).tocsr()
-    # Depth-first search follows the curve: a closed one from anywhere, an open one from an end, which has degree 1.
-    start = int(np.where(main, degree, degree.max() + 1).argmin())
-    order = depth_first_order(graph, start, directed=False, return_predecessors=False)
-    edge = edge[order]
-    return edge, sets.crossing(edge, sets.contour_level[contour]), bool(degree[main].min() >= 2)
-
-
-def at_crossings(values: np.ndarray, ends: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """Values at points of edges, (c,) or (c, k), from those at the vertices, (n,) or (n, k).
-
-    ends : (c, 2) int64, of the edges. share : (c,) float64, where on the edges, from the first end.
-    """
-    low, high = (values[end] for end in ends.T)
-    return low + (share * (high - low).T).T
-
-
-def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) -> float:
-    """Compute E_concave of a contour, eq. (9) of docs/method.md.
+def concavities(sets: LevelSets, k_min: np.ndarray, contours: np.ndarray, sigma: float) -> np.ndarray:
+    """Compute E_concave of contours, eq. (9) of docs/method.md.
 
     k_min is sampled along the contour and smoothed by a Gaussian; its minimum is multiplied by the radius of a circle
     as long as the contour, so that it has no unit. [Berretti2009] leaves the scale open: CREASE_WORTH and MAX_WORTH
@@ -77,30 +35,46 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
         n vertices.
     k_min : (n,) float64
         Smaller principal curvature at each vertex, 1 / unit of the vertices.
-    contour : int
-        Index of the contour in ``sets``.
+    contours : (k,) int64
+        Indices of contours in ``sets``.
     sigma : float
         Standard deviation of the Gaussian, in units of the length of the contour; 0 does not smooth.
 
     Returns
     -------
-    energy : float
-        In units of the range of the field, at least -MAX_WORTH; negative where the contour passes a concavity. 0 for
+    energy : (k,) float64
+        In units of the range of the field, at least -MAX_WORTH; negative where a contour passes a concavity. 0 for
         a contour without length.
     """
-    edge, share, closed = contour_curve(sets, contour)
-    points, along = (at_crossings(values, sets.mesh.edges.vertices[edge], share)
-                     for values in (sets.mesh.vertices, k_min))
-    if closed:
-        points, along = np.concatenate([points, points[:1]]), np.append(along, along[0])
-    arc_length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
-    total = arc_length[-1]
-    at = (arange(SAMPLES) + 0.5) / SAMPLES * total
-    smooth = np.interp(at, arc_length, along)
+    found = [_least_along(sets, k_min, curves, sigma) for curves in contour_curves(sets, contours)]
+    relative = np.concatenate([np.empty(0), *found]) / (2 * np.pi)
+    return np.maximum(CREASE_WORTH * relative, -MAX_WORTH)
+
+
+def _least_along(sets: LevelSets, k_min: np.ndarray, curves: ContourCurves, sigma: float) -> np.ndarray:
+    """Least smoothed k_min along each of k curves, times its length: (k,) float64."""
+    smooth, total = _sampled(curves, curves.at_crossings(sets, sets.mesh.vertices), curves.at_crossings(sets, k_min))
     if sigma > 0:
-        smooth = gaussian_filter1d(smooth, sigma * SAMPLES, mode="wrap" if closed else "nearest")
-    relative = smooth.min() * total / (2 * np.pi)
-    return float(max(CREASE_WORTH * relative, -MAX_WORTH))
+        for chosen, mode in ((curves.closed, "wrap"), (~curves.closed, "nearest")):
+            smooth[chosen] = gaussian_filter1d(smooth[chosen], sigma * SAMPLES, mode=mode)
+    return smooth.min(axis=1) * total
+
+
+def _sampled(curves: ContourCurves, points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Values, (c,), at SAMPLES points along each of k curves: (k, SAMPLES) float64; and their lengths, (k,) float64."""
+    following = arange(1, len(points) + 1)
+    following[curves.start[1:] - 1] = curves.start[:-1]
+    step = lengths(points[following] - points)
+    smooth, total = np.empty((len(curves.closed), SAMPLES)), np.empty(len(curves.closed))
+    bounds = zip(curves.start[:-1].tolist(), curves.start[1:].tolist(), curves.closed.tolist(), strict=True)
+    for row, (start, stop, closed) in enumerate(bounds):
+        along, steps = (values[start:stop], step[start: stop - 1])
+        if closed:
+            along, steps = np.append(along, along[0]), step[start:stop]
+        arc_length = np.append(0.0, np.cumsum(steps))
+        total[row] = arc_length[-1]
+        smooth[row] = np.interp((arange(SAMPLES) + 0.5) / SAMPLES * total[row], arc_length, along)
+    return smooth, total
 
 
 def search_boundaries(
@@ -138,16 +112,20 @@ def search_boundaries(
 
     Notes
     -----
-    ``concavity`` is computed once for each contour that a cut can reach.
+    The concavity is computed once for each contour that a cut can reach, and of all of them at once.
     """
     lower, upper = piece_region[sets.contour_pieces].T
     cuts = np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
     link = _links(sets, topology)
     moved = piece_region.copy()
-    for cut, run in _search_runs(sets, topology, cuts):
+    runs = list(_search_runs(sets, topology, cuts))
+    energy = np.empty(sets.n_contours)
+    if runs:
+        reached = np.concatenate([run for _, run in runs])
+        energy[reached] = concavities(sets, k_min, reached, sigma)
+    for cut, run in runs:
         stay = np.abs(sets.levels[sets.contour_level[run]] - sets.levels[sets.contour_level[cut]])
-        concave = np.array([concavity(sets, k_min, contour, sigma) for contour in run.tolist()])
-        best = int(((1 - concavity_weight) * stay + concavity_weight * concave).argmin())
+        best = int(((1 - concavity_weight) * stay + concavity_weight * energy[run]).argmin())
         here = int(np.flatnonzero(run == cut)[0])
         passed = sets.contour_pieces[run[min(here, best): max(here, best) + 1]]
         below, above = piece_region[sets.contour_pieces[cut]]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boundary search: curves in order, concavity without unit, cuts that slide into necks."""
+"""Boundary search: concavity without unit, cuts that slide into necks."""
 
 from dataclasses import replace
 
@@ -9,13 +9,7 @@ import shapes
 from heights import along
 
 from core.arrays.components import components
-from core.cuts.berretti.boundary_search import (
-    _search_runs,
-    at_crossings,
-    concavity,
-    contour_curve,
-    search_boundaries,
-)
+from core.cuts.berretti.boundary_search import _search_runs, concavities, search_boundaries
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.mesh.triangles import TriMesh
@@ -43,55 +37,6 @@ def moved(sets, region, alpha, sigma=0.1):
     return search_boundaries(sets, reeb_topology(sets), k_min(sets.mesh), region, alpha, sigma)
 
 
-@pytest.mark.parametrize("make", [shapes.dumbbell, lambda: shapes.surface_of_genus(2), shapes.tube_tree])
-def test_closed_curves_pass_every_crossing_once(make):
-    sets = upright(make(), 13)
-    edges = sets.mesh.edges.vertices
-    for contour in range(sets.n_contours):
-        edge, share, closed = contour_curve(sets, contour)
-        points = at_crossings(sets.mesh.vertices, edges[edge], share)
-        segments = sets.segment_contour == contour
-        assert closed
-        assert len(edge) == len(set(edge.tolist())) == segments.sum()
-        assert set(edge.tolist()) == set(sets.segment_edges[segments].ravel().tolist())
-        # Consecutive crossings, and the last and the first, are the ends of one segment.
-        steps = {tuple(sorted(p)) for p in zip(edge.tolist(), np.roll(edge, -1).tolist(), strict=True)}
-        assert steps == {tuple(sorted(p)) for p in sets.segment_edges[segments].tolist()}
-        length = np.linalg.norm(points - np.roll(points, -1, axis=0), axis=1).sum()
-        assert length == pytest.approx(sets.contour_length[contour])
-        a, b = sets.mesh.vertices[edges[edge]].transpose(1, 0, 2)
-        np.testing.assert_allclose(np.linalg.norm(points - a, axis=1) + np.linalg.norm(points - b, axis=1),
-                                   np.linalg.norm(a - b, axis=1), rtol=1e-9)
-
-
-@pytest.mark.parametrize("other", [shapes.icosphere(2), shapes.moved(shapes.flat_grid(4, 4), (-2, -2, 0))])
-@pytest.mark.parametrize("first", [False, True])
-def test_the_longest_of_several_curves_stands_for_a_contour(other, first):
-    """A contour that a bridge goes through has a curve on each side of it, here a ball and something coarser."""
-    ball, other = shapes.icosphere(3), shapes.moved(other, (0, 5, 0))
-    vertices, faces = shapes.together(other, ball) if first else shapes.together(ball, other)
-    sets = cut_at_levels(TriMesh(vertices, faces), vertices[:, 0], np.array([0.3]))
-    assert sets.n_contours == 2
-    longest = int(np.bincount(sets.segment_contour).argmax())
-    crossed = sets.segment_edges[sets.segment_contour == longest]
-    sets = replace(sets, segment_contour=np.zeros_like(sets.segment_contour))
-    edge, _, closed = contour_curve(sets, 0)
-    assert closed
-    assert sorted(edge.tolist()) == np.unique(crossed).tolist()
-
-
-def test_open_curves_run_from_border_to_border():
-    vertices, faces = shapes.flat_grid(6, 9)
-    sets = cut_at_levels(TriMesh(vertices, faces), vertices[:, 0], np.array([2.5]))
-    edge, share, closed = contour_curve(sets, 0)
-    points = at_crossings(vertices, sets.mesh.edges.vertices[edge], share)
-    assert not closed
-    y = points[:, 1]
-    assert (np.diff(y) > 0).all() or (np.diff(y) < 0).all()
-    assert sorted((y[0], y[-1])) == [0, 9]
-    np.testing.assert_allclose(points[:, 0], 2.5)
-
-
 def test_concavity_has_no_unit_and_its_sign_is_that_of_k_min():
     # The waist of the dumbbell is a saddle of radius 0.25; its balls are convex.
     for scale in (1e-3, 1.0, 1e3):
@@ -99,7 +44,7 @@ def test_concavity_has_no_unit_and_its_sign_is_that_of_k_min():
         sets = upright(shapes.Shape(scale * vertices, faces), 31)
         curvature = k_min(sets.mesh)
         z = sets.contour_center[:, 2] / scale
-        energy = np.array([concavity(sets, curvature, c, 0.1) for c in range(sets.n_contours)])
+        energy = concavities(sets, curvature, np.arange(sets.n_contours), 0.1)
         order = np.argsort(z)
         if scale == 1e-3:
             expected = energy[order]
@@ -113,10 +58,9 @@ def test_concavity_of_a_ball_is_that_of_its_circle():
     # k_min is 1 / R everywhere; times the radius of the circle at height h, worth 0.1 of it.
     sets = upright(shapes.icosphere(4), 10)
     curvature = k_min(sets.mesh)
-    for contour in range(sets.n_contours):
-        height = 2 * sets.levels[sets.contour_level[contour]] - 1
-        assert concavity(sets, curvature, contour, 0.1) == pytest.approx(
-            0.1 * np.sqrt(1 - height**2), rel=0.1)
+    height = 2 * sets.levels[sets.contour_level] - 1
+    energy = concavities(sets, curvature, np.arange(sets.n_contours), 0.1)
+    assert energy == pytest.approx(0.1 * np.sqrt(1 - height**2), rel=0.1)
 
 
 @pytest.mark.parametrize("level", [24, 26, 28, 29, 31, 33, 34])
@@ -141,7 +85,7 @@ def test_alpha_zero_moves_nothing_and_alpha_one_moves_at_will():
     np.testing.assert_array_equal(moved(sets, region, 0.0), region)
     heights = cut_heights(sets, moved(sets, region, 1.0))
     curvature = k_min(sets.mesh)
-    energy = [concavity(sets, curvature, c, 0.1) for c in range(sets.n_contours)]
+    energy = concavities(sets, curvature, np.arange(sets.n_contours), 0.1)
     assert heights == pytest.approx([sets.levels[sets.contour_level[int(np.argmin(energy))]]])
 
 
@@ -205,14 +149,14 @@ def test_a_cut_may_move_up_to_the_middle_between_itself_and_the_next():
 
 def test_concavity_is_worth_at_most_three_tenths_of_the_range():
     sets = upright(shapes.icosphere(3), 2)
-    assert concavity(sets, np.full(sets.mesh.n_vertices, -1e9), 0, 0.1) == -0.3
+    assert concavities(sets, np.full(sets.mesh.n_vertices, -1e9), np.array([0]), 0.1).tolist() == [-0.3]
 
 
 def test_around_a_closed_contour_it_does_not_matter_where_the_dip_is():
     """The Gaussian runs on from the end of the contour to its beginning, where a narrow dip would count twice."""
     sets = upright(shapes.icosphere(4), 2)
     angle = np.arctan2(*sets.mesh.vertices[:, :2].T)
-    found = [concavity(sets, -np.exp(-((np.angle(np.exp(1j * (angle - at))) / 0.2) ** 2)), 0, 0.05)
+    found = [concavities(sets, -np.exp(-((np.angle(np.exp(1j * (angle - at))) / 0.2) ** 2)), np.array([0]), 0.05)[0]
              for at in np.linspace(0, 2 * np.pi, 24, endpoint=False)]
     assert min(found) == pytest.approx(max(found), rel=0.05)
 
@@ -220,4 +164,4 @@ def test_around_a_closed_contour_it_does_not_matter_where_the_dip_is():
 def test_a_contour_without_length_has_no_concavity():
     sets = upright(shapes.icosphere(1), 2)
     nowhere = replace(sets, mesh=TriMesh(0 * sets.mesh.vertices, sets.mesh.faces))
-    assert concavity(nowhere, np.full(sets.mesh.n_vertices, -1.0), 0, 0.1) == 0
+    assert concavities(nowhere, np.full(sets.mesh.n_vertices, -1.0), np.array([0]), 0.1).tolist() == [0]

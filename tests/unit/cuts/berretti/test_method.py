@@ -7,7 +7,7 @@ import shapes
 from heights import counted
 
 from core.arrays.components import components
-from core.cuts.berretti.boundary_search import concavity
+from core.cuts.berretti.boundary_search import concavities
 from core.cuts.berretti.method import berretti_candidates
 from core.cuts.berretti.regions import berretti_regions, with_finer
 from core.graph.level_sets import cut_at_levels, uniform_levels
@@ -92,7 +92,7 @@ def test_concavity_pulls_cuts_into_creases():
         return np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
 
     def energy(contours):
-        return [concavity(sets, curvature, c, PAPER.sigma) for c in contours.tolist()]
+        return concavities(sets, curvature, contours, PAPER.sigma)
 
     stay, slide = cuts(0.0), cuts(1.0)
     assert len(stay) == len(slide) >= 4
