@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from ..core.interruptions import is_ending
+
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -37,12 +39,13 @@ class Interrupts:
             yield
         finally:
             for number, handler in former.items():
-                # None stands for a handler that is not Python's and cannot be set again.
-                signal.signal(number, signal.SIG_DFL if handler is None else handler)
+                # None stands for a handler that is not Python's and cannot be set again. After a signal the process is
+                # about to end: another one would only change its status, and leave Blender's temporary files.
+                signal.signal(number, signal.SIG_IGN if self._number else handler or signal.SIG_DFL)
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
-        self._number = number
-        if self._allowed:
+        self._number = self._number or number
+        if self._allowed and not is_ending():
             raise Interrupted(number)
 
     def check(self) -> None:

@@ -35,6 +35,7 @@ What all of them, and who calls them, may use:
 - ``second_thread``: work beside the run, which Blender's extension leaves out
 - ``memory``: what a process of its own tells its allocator, and how a lack of memory shows
 - ``file_names``: such as every file system takes
+- ``interruptions``: whether one is being heeded already
 - ``atomic_files``: several files that get to their places all or none
 - ``fbx_nodes``: whether Blender can read an .fbx without all memory
 - ``metrics``: how far two labelings of one mesh are from each other

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 
@@ -55,8 +55,11 @@ def put_in_place(moves: Mapping[Path, Path], about: Callable[[Path], AbstractCon
                 _take_back(place, target, formers.get(target))
         raise
     finally:
-        for former in formers.values():
-            restore_former(former)
+        try:
+            _restore(formers.values())
+        except BaseException:  # such as Ctrl+C
+            _restore(formers.values())
+            raise
 
 
 def _is_kept(place: Path, target: Path, count: int) -> bool:
@@ -83,6 +86,11 @@ def _take_back(place: Path, target: Path, former: Path | None) -> None:
         os.replace(target, place)
     if former is not None and os.path.lexists(former / target.name):
         os.replace(former / target.name, target)
+
+
+def _restore(formers: Iterable[Path]) -> None:
+    for former in formers:
+        restore_former(former)
 
 
 def restore_former(former: Path) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import atexit
 import io
 import os
 import signal
@@ -12,11 +13,14 @@ from contextlib import suppress
 from types import FrameType
 from typing import Any
 
+from ..core.interruptions import is_ending
 from .words import INTERRUPTED, say
 
 
 def main(arguments: list[str] | None = None) -> int:
     """The command; returns the exit status: 0 only if all went well, 130 after Ctrl+C."""
+    # The last before Python gives signals back to the system, which would end the process with a status of its own.
+    atexit.register(_hear_signals, signal.SIG_IGN)
     _hear_signals(_end)
     _open_standard_streams()
     from . import commands
@@ -68,7 +72,8 @@ class _Errors(io.FileIO):
 def _interrupt(number: int, frame: FrameType | None) -> None:
     """Raise KeyboardInterrupt; what it breaks off in the middle has nothing to say when it is collected."""
     sys.unraisablehook = lambda _: None
-    raise KeyboardInterrupt
+    if not is_ending():
+        raise KeyboardInterrupt
 
 
 def _end(number: int, frame: FrameType | None) -> None:

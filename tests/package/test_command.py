@@ -225,9 +225,12 @@ import atexit, os, signal, sys, time
 def late():
     os.kill(os.getpid(), getattr(signal, sys.argv[1]))
     time.sleep(60)
-atexit.register(late)
-from reeb_parts.command.main import main
-sys.exit(main(["decompose", "none.obj"]))
+from reeb_parts.command import commands, main
+def run(options, plain=commands.run):
+    atexit.register(late)
+    return plain(options)
+commands.run = run
+sys.exit(main.main(["decompose", "none.obj"]))
 """
 
 
@@ -237,6 +240,54 @@ def test_ctrl_c_once_more_ends_it_at_once(name):
     done = subprocess.run([sys.executable, "-c", ENDING, name], capture_output=True, text=True, check=False, timeout=50)
     assert (done.returncode, done.stdout) == (130, "")
     assert done.stderr.splitlines() == ["reeb-parts: There is no file none.obj.", "reeb-parts: Interrupted."]
+
+
+#: The command, which gets a signal when all is done, and Python has only its modules to take down.
+DONE = """
+import os, signal, sys
+class Last:
+    def __del__(self, kill=os.kill, process=os.getpid(), signal=getattr(signal, sys.argv[1])):
+        kill(process, signal)
+last = Last()
+from reeb_parts.command.main import main
+sys.exit(main(["decompose", "none.obj"]))
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_a_signal_when_all_is_done_changes_nothing(name):
+    """Its exit status was that of a process that was killed, whatever it had done."""
+    done = subprocess.run([sys.executable, "-c", DONE, name], capture_output=True, text=True, check=False, timeout=50)
+    assert (done.returncode, done.stderr) == (1, "reeb-parts: There is no file none.obj.\n")
+
+
+#: The command, which gets a signal while it writes its files, and one of another kind while it takes them back.
+CLEANING = """
+import os, signal, sys
+from pathlib import Path
+from reeb_parts import output_files
+from reeb_parts.command import main
+def sync(handle):
+    if len(list(Path(sys.argv[2]).rglob(output_files.HIDDEN + "*"))) == 3:
+        signal.raise_signal(signal.SIGINT)
+def unlink(path, missing_ok=False, plain=Path.unlink):
+    try:
+        raise OSError  # what is caught meanwhile is not what is going on
+    except OSError:
+        signal.raise_signal(signal.SIGTERM)
+    plain(path, missing_ok)
+output_files.os.fsync, Path.unlink = sync, unlink
+model, folder = sys.argv[1:]
+sys.exit(main.main(["decompose", model, "--parts", folder + "/parts", "--labels", folder + "/labels.npy"]))
+"""
+
+
+def test_ctrl_c_once_more_leaves_nothing_behind(model, tmp_path):
+    """What it had written under hidden names stayed in the folders, as the second one ended the clean-up, too."""
+    done = subprocess.run([sys.executable, "-c", CLEANING, model, tmp_path], capture_output=True, text=True,
+                          check=False, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr.splitlines()[-1]) == (130, "", "reeb-parts: Interrupted.")
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
 
 
 #: The command, which gets a signal in the middle of its work, and another one while it says so.

@@ -135,8 +135,8 @@ def interrupted_before(line, work):
 
 @pytest.mark.parametrize("kind", ["files", "folder"])
 def test_an_interruption_at_any_time_leaves_all_old_or_all_new(tmp_path, kind):
-    """Should it come when all is in place already, former files may be left under their hidden names."""
-    interruptions, outcomes = 0, set()
+    """Former files stay under hidden names only if it comes just before the first of them is removed."""
+    interruptions, outcomes, n_left = 0, set(), 0
     while True:
         work = fill(tmp_path / str(interruptions))
         if kind == "files":
@@ -152,9 +152,11 @@ def test_an_interruption_at_any_time_leaves_all_old_or_all_new(tmp_path, kind):
         assert len(set(shown.values())) == 1
         assert len(shown) == len(moves)
         outcomes |= set(shown.values())
+        n_left += any(path.name.startswith(FORMER) for path in work.iterdir())
         interruptions += 1
     assert interruptions > 30
     assert outcomes == {"old", "new"}
+    assert n_left <= 3
 
 
 def test_what_a_killed_process_moved_away_is_brought_back_unless_something_took_its_place(tmp_path):

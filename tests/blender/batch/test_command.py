@@ -354,9 +354,13 @@ def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, m
         while running.poll() is None and not reached():
             time.sleep(0.01)
         os.kill(running.pid, signal.Signals[name])
-        running.wait(timeout=120)
+        other = signal.SIGTERM if name == "SIGINT" else signal.SIGINT
+        while running.poll() is None:  # nor do more of them, as from somebody impatient, until the process has ended
+            os.kill(running.pid, other)
+            time.sleep(0.001)
     out, err = ((said / name).read_text() for name in ("out", "err"))
-    assert running.returncode == 128 + signal.Signals[name], err
+    # Of two that wait for Blender to go on, Python hears the one of smaller number first.
+    assert running.returncode in {128 + signal.Signals[name], 128 + min(signal.Signals[name], other)}, err
     assert "{" not in out  # a full Blender says its version there
     assert "Interrupted; nothing was written." in err
     assert process.content(tmp_path) == before
