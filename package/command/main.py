@@ -14,7 +14,8 @@ from types import FrameType
 from typing import Any
 
 from ..core.interruptions import is_ending
-from .words import INTERRUPTED, say
+from ..core.memory import lacks_memory
+from .words import FAILED, INTERRUPTED, say
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -23,10 +24,16 @@ def main(arguments: list[str] | None = None) -> int:
     atexit.register(_hear_signals, signal.SIG_IGN)
     _hear_signals(_end)
     _open_standard_streams()
-    from . import commands
+    try:
+        from . import commands
 
-    options = commands.parse(arguments)
-    commands.import_readers()
+        options = commands.parse(arguments)
+        commands.import_readers()
+    except (MemoryError, ImportError) as error:
+        if not lacks_memory(f"{type(error).__name__}: {error}"):
+            raise
+        say("There is not enough memory.")
+        return FAILED
     try:
         _hear_signals(_interrupt)
         return commands.run(options)

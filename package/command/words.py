@@ -10,7 +10,7 @@ from contextlib import suppress
 from ..core.file_names import readable
 from ..core.sentence import Sentence
 
-INTERRUPTED = 130  # the exit status after Ctrl+C
+FAILED, INTERRUPTED = 1, 130  # exit statuses, the latter after Ctrl+C; those of core.options come with NumPy
 
 
 def say(text: str) -> None:

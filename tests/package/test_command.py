@@ -219,6 +219,28 @@ def test_ctrl_c_is_heard_while_modules_are_imported(module, name, model):
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "reeb-parts: Interrupted.\n")
 
 
+#: The command, for which a module finds no memory, as after ulimit -v (SGE's h_vmem).
+LACKING = """
+import sys
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == sys.argv[1]:
+            raise MemoryError if sys.argv[2] == "-" else ImportError(sys.argv[2])
+sys.meta_path.insert(0, Finder())
+from reeb_parts.command.main import main
+sys.exit(main(["decompose", "none.obj"]))
+"""
+
+
+@pytest.mark.parametrize("error", ["-", "libgfortran.so.5.0.0: failed to map segment from shared object"])
+@pytest.mark.parametrize("module", ["numpy", "scipy.linalg", "trimesh"])
+def test_where_memory_ends_while_modules_are_imported_it_is_a_sentence(module, error):
+    """It was a traceback."""
+    done = subprocess.run([sys.executable, "-c", LACKING, module, error], capture_output=True, text=True, check=False,
+                          timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", "reeb-parts: There is not enough memory.\n")
+
+
 #: The command, which gets a signal while Python ends, as from somebody impatient while Dask closes its workers.
 ENDING = """
 import atexit, os, signal, sys, time
