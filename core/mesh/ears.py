@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arrays.indexing import expanded, sums_by
 from ..arrays.int64 import arange, cumsum, full
-from ..arrays.ties import rounded
+from ..arrays.ties import TIE, rounded
 from ..arrays.vectors import cross, cross_in_plane, lengths, row_products, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
@@ -149,7 +149,8 @@ def _ears(place: np.ndarray, rank: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     cost = np.stack([_ear_cost(place, left, before[:, k], full(n_faces, k), after[:, k]) for k in range(size)], 1)
     order, whole = np.empty((n_faces, size - 2, 3), np.int64), np.ones(n_faces, bool)
     for step in range(size - 2):
-        ear = np.where(cost == cost.min(axis=1, keepdims=True), rank, size).argmin(axis=1)
+        # The frame in the plane follows the pose: lengths that are equal differ by rounding there.
+        ear = np.where(cost <= (1 + TIE) * cost.min(axis=1, keepdims=True), rank, size).argmin(axis=1)
         whole &= np.isfinite(cost[face, ear])
         first, last = before[face, ear], after[face, ear]
         order[:, step] = np.stack([first, ear, last], axis=1)
@@ -167,7 +168,7 @@ def _ear_cost(place: np.ndarray, left: np.ndarray, first: np.ndarray, ear: np.nd
     """
     a, b, c = (place[arange(len(place)), corner][:, None] for corner in (first, ear, last))
     area = _turn(a, b, c)[:, 0]
-    inside = left & (_turn(a, b, place) >= 0) & (_turn(b, c, place) >= 0) & (_turn(c, a, place) >= 0)
+    inside = left & np.all([_turn(p, q, place) >= -STRAIGHT for p, q in ((a, b), (b, c), (c, a))], axis=0)
     for end in (a, b, c):  # a corner at the same place, as where a hole is tied to the outside, is none inside
         inside &= (place != end).any(axis=2)
     length = ((c - a)[:, 0] ** 2).sum(axis=1)

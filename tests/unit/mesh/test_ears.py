@@ -15,6 +15,9 @@ ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
 KEYHOLE = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)]
 #: An L with corners in the middle of its sides.
 STRAIGHT = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 1)]
+#: A gear of nine teeth.
+GEAR = [(radius * np.cos(at), radius * np.sin(at)) for tooth in range(9)
+        for radius, at in zip((1, 1.25, 1.25, 1), 2 * np.pi * (tooth + np.arange(4) / 4) / 9, strict=True)]
 
 
 def test_fans_begin_at_the_first_corner():
@@ -145,6 +148,17 @@ def test_the_numbers_of_vertices_decide_nothing(seed):
     np.testing.assert_array_equal(one.vertices[one.faces], two.vertices[two.faces])
     fan, _ = fans(quads.ravel(), np.full(len(quads), 4))
     assert (one.faces != fan).any(axis=1).sum() > 50
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("corners", [LETTER_H, GEAR])
+def test_the_pose_decides_nothing(corners, seed):
+    """Of ears that are equally good, and for corners in line with a cut, the rounding of the pose decided."""
+    rng = np.random.default_rng(seed)
+    flat = np.append(np.asarray(corners, float), np.zeros((len(corners), 1)), axis=1)
+    once = [triangulated(vertices, np.arange(len(flat)), np.array([len(flat)]))[0]
+            for vertices in (flat, flat @ shapes.rotation(rng).T + rng.normal(size=3))]
+    np.testing.assert_array_equal(*once)
 
 
 def test_polygons_of_thousands_of_corners_keep_their_fans():
