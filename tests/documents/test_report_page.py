@@ -8,7 +8,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 import shapes
 from browser import after, in_browser
@@ -17,21 +16,11 @@ ROOT = Path(__file__).resolve().parents[2]
 METHODS = ["Berretti 2009", "Liu 2007"]
 
 
-def people_of(center):
-    """Three people: upper and lower, the same, and left and right."""
-    upper = center[:, 2] > np.median(center[:, 2])
-    return np.stack([upper, upper, center[:, 0] > np.median(center[:, 0])]).astype(np.uint8)
-
-
 @pytest.fixture(scope="module")
-def report(tmp_path_factory):
+def report(tmp_path_factory, write_data):
     folder = tmp_path_factory.mktemp("report")
-    data, out = folder / "data", folder / "out"
-    data.mkdir()
-    made = {1: shapes.dumbbell(), 22: shapes.torus(), 381: shapes.tube_tree(step=0.2)}
-    for number, shape in made.items():
-        np.savez(data / f"{number}.npz", vertices=shape.vertices, faces=shape.faces,
-                 human=people_of(shape.vertices[shape.faces].mean(axis=1)))
+    out = folder / "out"
+    data = write_data(folder / "data", {1: shapes.dumbbell(), 22: shapes.torus(), 381: shapes.tube_tree(step=0.2)})
     run_report(data, out)
     return data, out
 
