@@ -91,24 +91,14 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
             load_core()
             objects, problems, sources = find_objects(options)
         files.protect(scene_files())
-        reports, done = [], []
         computations = Computations(objects, parameters, options.hints.upper())
         with interrupts.allowed():
-            for obj in objects:
-                # What is written to a mesh is written to all objects that share it.
-                twin = next((other for other in done if other.data == obj.data), None)
-                try:
-                    with in_its_scene(obj):
-                        leave_edit_mode(bpy.context)
-                        report = decompose_object(obj, computations, options, twin)
-                    reports.append(report | sources.get(obj, {}))
-                    done.append(obj)
-                except (SceneError, ReebError, MemoryError) as error:
-                    problems.append(problem(obj.name, error))
-        if not done:
+            reports, failed = decompose_objects(objects, computations, options)
+        if not reports:
             raise SceneError("Nothing was decomposed.")
+        said = [report | sources.get(obj, {}) for obj, report in reports.items()]
         with interrupts.allowed():
-            return write_files(options, files, done, reports, problems)
+            return write_files(options, files, list(reports), said, problems + failed)
 
 
 def _claim(options: argparse.Namespace, files: RunFiles) -> None:
@@ -138,6 +128,23 @@ def _check_kinds(options: argparse.Namespace) -> None:
         path = getattr(options, option)
         if path is not None and path.suffix.lower() != kind:
             raise SceneError(f"--{option} {path} must end in {kind}.")
+
+
+def decompose_objects(objects: list[bpy.types.Object], computations: Computations, options: argparse.Namespace
+                      ) -> tuple[dict[bpy.types.Object, dict], list[dict[str, str]]]:
+    """Decompose one object after the other: the entry in the JSON of each, and the problems of those that failed."""
+    reports: dict[bpy.types.Object, dict] = {}
+    problems = []
+    for obj in objects:
+        # What is written to a mesh is written to all objects that share it.
+        twin = next((other for other in reports if other.data == obj.data), None)
+        try:
+            with in_its_scene(obj):
+                leave_edit_mode(bpy.context)
+                reports[obj] = decompose_object(obj, computations, options, twin)
+        except (SceneError, ReebError, MemoryError) as error:
+            problems.append(problem(obj.name, error))
+    return reports, problems
 
 
 def decompose_object(obj: bpy.types.Object, computations: Computations, options: argparse.Namespace,
@@ -207,8 +214,8 @@ def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.
     written: dict[str, str | list[str]] = {}
     separated, cut = is_separated(options), (options.cuts or "faces").upper()
     if options.parts:
-        paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format,
-                                    separated=separated, cut=cut)
+        style = export.ExportStyle(options.parts_format, separated=separated, cut=cut)
+        paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, style)
         written["parts"] = [readable(path) for path in paths]
     if options.threemf:
         export.write_assemblies(files, objects, options.threemf, separated, cut)

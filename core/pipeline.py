@@ -12,6 +12,7 @@ import numpy as np
 
 from .arrays.indexing import underflow_is_zero
 from .cuts.boosted_trees import BoostedTrees
+from .cuts.foundation import Foundation
 from .cuts.hierarchy import Candidates
 from .cuts.joining.method import JoinModel, fine_parts, join_parts
 from .cuts.methods import find_candidates
@@ -228,16 +229,16 @@ def decompose_component(
     DisconnectedMeshError
         The pieces of the component do not hang together by its bridges.
     """
-    pyramid, field, sets = level_sets_of(component, parameters, watch, begin, width)
-    drawn = cache(meanwhile(_drawn, sets, field))
+    foundation = level_sets_of(component, parameters, watch, begin, width)
+    drawn = cache(meanwhile(_drawn, foundation.sets, foundation.field))
     if parameters.method == BERRETTI:  # cuts of all other methods can be found before the graph is there
         with watch.stage("reeb graph", begin + 0.5 * width):
             drawn()
     with watch.stage("cuts", begin + 0.95 * width) as progress:
-        candidates = find_candidates(sets, field, lambda: drawn()[0], pyramid, parameters, model, progress)
+        candidates = find_candidates(foundation, lambda: drawn()[0], parameters, model, progress)
     with watch.stage("reeb graph", begin + width):
         topology, graph = drawn()
-    return ComponentResult(component, field, sets, topology, graph, candidates)
+    return ComponentResult(component, foundation.field, foundation.sets, topology, graph, candidates)
 
 
 def _drawn(sets: LevelSets, field: ScalarField) -> tuple[ReebTopology, ReebGraph]:
@@ -248,10 +249,9 @@ def _drawn(sets: LevelSets, field: ScalarField) -> tuple[ReebTopology, ReebGraph
 
 def level_sets_of(
     component: Component, parameters: Parameters, watch: Stopwatch, begin: float = 0.0, width: float = 1.0
-) -> tuple[Pyramid, ScalarField, LevelSets]:
+) -> Foundation:
     """The stages on one body that all methods and the Reeb graph begin with; the arguments of ``decompose_component``.
 
-    Returns coarser copies of the body's mesh, its AGD, and the level sets of that.
     Raises DisconnectedMeshError if the pieces of the component do not hang together by its bridges.
     """
     pyramid = Pyramid(component.mesh, component.bridges.vertices)
@@ -260,7 +260,7 @@ def level_sets_of(
     with watch.stage("reeb graph", begin + 0.45 * width):
         levels = uniform_levels(parameters.n_slabs) if field.values.any() else np.empty(0)
         sets = cut_at_levels(component.mesh, field.values, levels, component.bridges.faces)
-    return pyramid, field, sets
+    return Foundation(pyramid, field, sets)
 
 
 def join_pieces(

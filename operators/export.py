@@ -12,7 +12,7 @@ from ..scene.modes import object_mode
 from ..scene.properties import SEPARATE, WhichProperties, fill_in
 from ..scene.reporting import ReportingOperator, chosen_with_parts, with_current_parts
 from ..scene.result.part_list import wanted_numbers
-from ..scene.saving.export import KINDS, export_parts
+from ..scene.saving.export import KINDS, ExportStyle, export_parts
 from ..scene.saving.run_files import together
 
 # Since Blender 4.5 a path may only begin with "//" where that is said.
@@ -67,5 +67,6 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
             # Pieces may be of other parts than those in the list, which are of the detail that is shown now.
             every = self.separated and self.which == "ALL"
             wanted = [(obj, None if every else wanted_numbers(obj.data, self.which)) for obj in objects]
-            paths = export_parts(files, wanted, folder, self.format, self.caps, self.one_file, self.separated, self.cut)
+            style = ExportStyle(self.format, self.caps, self.one_file, self.separated, self.cut)
+            paths = export_parts(files, wanted, folder, style)
         self.report({"INFO"}, rpt_("{n} {n:file|files} in {folder}").format(n=Count(len(paths)), folder=folder))

@@ -152,12 +152,7 @@ def discard(*blocks: bpy.types.ID) -> None:
     first = next((place for place, block in enumerate(blocks) if _open and not is_new(block)), len(blocks))
     for block in blocks[first:]:
         if not is_discarded(block):
-            _open[0].discarded[block] = None
-            for named in (block, getattr(block, "shape_keys", None)):
-                if named is not None:
-                    if not is_new(named):
-                        _open[0].renamed.append(partial(setattr, named, "name", named.name))
-                    rename(named, "Reeb Parts, to be removed")
+            _open[0].discard(block)
     if first:
         bpy.data.batch_remove(blocks[:first])
 
@@ -210,6 +205,15 @@ class Transaction:
             self._groups.add((block, name))
             values = values_of(getattr(block, name)) if block.is_property_set(name) else None
             self.inverses.append(partial(_restore_group, block, name, values))
+
+    def discard(self, block: bpy.types.ID) -> None:
+        """Have a block, and its shape keys, removed at the end; until then they are called something else."""
+        self.discarded[block] = None
+        keys = getattr(block, "shape_keys", None)
+        for named in (block,) if keys is None else (block, keys):
+            if not self.is_new(named):
+                self.renamed.append(partial(setattr, named, "name", named.name))
+            rename(named, "Reeb Parts, to be removed")
 
     def prepare(self) -> None:
         """Let the groups know what they are like in the end, see settled.Settled."""

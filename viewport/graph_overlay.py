@@ -55,8 +55,8 @@ def forget() -> None:
     _lines.clear()
 
 
-def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.ndarray, up: np.ndarray,
-          radii: np.ndarray, chosen: Sequence[bool] = ()) -> tuple[np.ndarray, np.ndarray]:
+def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, axes: np.ndarray, radii: np.ndarray,
+          chosen: Sequence[bool] = ()) -> tuple[np.ndarray, np.ndarray]:
     """Triangles of the marks of some nodes, each with its rim behind it; chosen ones have a bright one around that.
 
     Parameters
@@ -64,8 +64,8 @@ def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.nd
     places : (k, 3) float64
     kinds : list of str
     colors : (k, 4) float64
-    right, up : (3,) float64
-        The axes of the view.
+    axes : (2, 3) float64
+        Which way is right and up in the view.
     radii : (k,) float64
     chosen : (k,) of bool, or none
 
@@ -77,7 +77,7 @@ def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.nd
     points, shades = [], []
     for place, kind, color, radius, lit in zip(
             places, kinds, colors, radii, chosen or [False] * len(places), strict=True):
-        outline = SHAPES[kind] @ np.stack([right, up]) * radius
+        outline = SHAPES[kind] @ axes * radius
         rim_color = _DARK if color @ _LUMINANCE > 0.3 else _LIGHT
         rims = ((LIT, _LIGHT), (RIM, _DARK)) if lit else ((RIM, rim_color),)
         for size, shade in (*rims, (1.0, color)):
@@ -200,7 +200,7 @@ def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: lis
     # Over what Blender draws of the empties themselves, so that each is seen once.
     own = np.array([node.empty_display_size * max(node.matrix_world.to_scale()) for node in nodes])
     radii = np.maximum(SIZE * context.preferences.system.ui_scale * pixel, COVER * own)
-    points, shades = marks(places, [node["kind"] for node in nodes], colors, matrix[0, :3], matrix[1, :3], radii,
+    points, shades = marks(places, [node["kind"] for node in nodes], colors, matrix[:2, :3], radii,
                            [node.select_get() for node in nodes])
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     batch_for_shader(shader, "TRIS", {"pos": points, "color": shades}).draw(shader)

@@ -6,6 +6,7 @@
 - ``perceptual``: where people cut
 - ``lavoue``: where curvature changes [Lavoue2005]
 - ``liu``: in two again and again [Liu2007]
+- ``foundation``: what all of them begin with
 - ``patches``: patches that end at creases, which several methods start from
 - ``boosted_trees``: the regression trees that judge cuts and joints
 - ``hierarchy``: what all methods give: candidates, and the order in which they merge

@@ -5,13 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..field.agd import ScalarField
-from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebTopology
 from ..parameters import BERRETTI, LAVOUE, LIU, PERCEPTUAL, Parameters
-from ..surface.coarsening import Pyramid
 from .berretti.method import berretti_candidates
 from .boosted_trees import BoostedTrees
+from .foundation import Foundation
 from .hierarchy import Candidates
 from .lavoue.method import lavoue_candidates
 from .liu.method import liu_candidates
@@ -19,10 +17,8 @@ from .perceptual.method import perceptual_candidates
 
 
 def find_candidates(
-    sets: LevelSets,
-    field: ScalarField,
+    foundation: Foundation,
     topology: Callable[[], ReebTopology],
-    pyramid: Pyramid,
     parameters: Parameters,
     model: BoostedTrees | None = None,
     progress: Callable[[float], None] | None = None,
@@ -31,14 +27,9 @@ def find_candidates(
 
     Parameters
     ----------
-    sets : LevelSets
-        Level sets of one connected component.
-    field : ScalarField
-        AGD of the component.
+    foundation : Foundation
     topology : callable
         Returns the Reeb graph of the component, simplified; the method "berretti" alone calls it.
-    pyramid : Pyramid
-        Coarser copies of the component's mesh.
     parameters : Parameters
     model : BoostedTrees, optional
         Model that judges cuts in the method "perceptual". Without it, the model that ships with the package.
@@ -55,7 +46,8 @@ def find_candidates(
         The model that ships with the package was trained on other features; only if it is needed.
     """
     if parameters.method == PERCEPTUAL:
-        return perceptual_candidates(sets, field, pyramid, parameters, model, progress)
+        return perceptual_candidates(foundation, parameters, model, progress)
+    sets = foundation.sets
     if parameters.method == BERRETTI:
         candidates = berretti_candidates(sets, topology(), parameters)
         n_pieces, piece = sets.mesh.face_components

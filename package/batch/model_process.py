@@ -195,12 +195,19 @@ def _listen(pipe: IO[bytes], messages: queue.SimpleQueue[dict[str, Any]]) -> Non
     """Put each message of a pipe, a line with an object of JSON, into a queue, and in the end ENDED."""
     try:
         with pipe:
-            for line in pipe:
-                with suppress(ValueError):  # what a Python prints when it starts
-                    if isinstance(message := json.loads(line), dict):
-                        messages.put(message)
+            for message in filter(None, map(_message, pipe)):
+                messages.put(message)
     finally:
         messages.put(ENDED)
+
+
+def _message(line: bytes) -> dict[str, Any] | None:
+    """A message; None where it is something else, as what a Python prints when it starts."""
+    try:
+        message = json.loads(line)
+    except ValueError:
+        return None
+    return message if isinstance(message, dict) else None
 
 
 # In the process itself -----------------------------------------------------------------------

@@ -7,6 +7,8 @@ is not possible; nothing is written then.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -25,6 +27,9 @@ from ..result import part_names
 from ..showing.selection import selected_faces
 from ..store import Stored
 from . import pins
+
+if TYPE_CHECKING:
+    from ...core.result.editing.mirrored import Sides
 
 
 def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, number: int) -> str:
@@ -125,15 +130,17 @@ def _own_halves(stored: Stored, asked: np.ndarray) -> np.ndarray:
     found, numbered = stored.decomposition, stored.shown_parts()
     if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
         return asked
-    halves = own_halves(stored.face_numbers, asked, found.face_twin, found.face_side, _own_side(numbered))
+    halves = own_halves(stored.face_numbers, asked, _sides(found, numbered))
     return asked if np.array_equal(halves, asked) else halves
 
 
-def _own_side(numbered: NumberedParts) -> np.ndarray:
-    """Side of the part of each number, (k,) int64, 0 where it has none."""
-    own_side = np.zeros(int(numbered.numbers.max()) + 1, np.int64)
-    own_side[numbered.numbers] = numbered.parts.side
-    return own_side
+def _sides(found: Decomposition, numbered: NumberedParts) -> Sides:
+    """Where the faces of a symmetric model lie, and its parts by their numbers."""
+    from ...core.result.editing.mirrored import Sides
+
+    of_part = np.zeros(int(numbered.numbers.max()) + 1, np.int64)
+    of_part[numbered.numbers] = numbered.parts.side
+    return Sides(found.face_twin, found.face_side, of_part)
 
 
 def _mirrored_too(mesh: bpy.types.Mesh, stored: Stored, asked: np.ndarray, graph: FaceGraph,
@@ -163,8 +170,7 @@ def _with_small_pieces(stored: Stored, touching: FaceGraph, after: np.ndarray, b
         return along
     image, twin = arange(int(max(along.max(), numbered.numbers.max())) + 1), twin_numbers(numbered)
     image[list(twin)] = list(twin.values())
-    return halved_between_images(touching, after, along, found.face_twin, found.face_side, _own_side(numbered),
-                                 image)
+    return halved_between_images(touching, after, along, _sides(found, numbered), image)
 
 
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:

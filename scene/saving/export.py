@@ -6,6 +6,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -43,19 +44,12 @@ KINDS = (
 _PLAIN = (0.8, 0.8, 0.8)
 
 
-def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
-                 kind: str, close: bool = False, one_file: bool = False, separated: bool = False,
-                 cut: str = "FACES") -> list[Path]:
-    """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
+@dataclass(frozen=True)
+class ExportStyle:
+    """How parts are written to files.
 
-    Parameters
+    Attributes
     ----------
-    files : RunFiles
-        Puts the files in their places when all is written.
-    objects : iterable of (bpy.types.Object, iterable of int or None)
-        In Object Mode, with parts; which parts, None for all.
-    folder : Path
-        Made if it is not there.
     kind : str
         Of KINDS.
     close : bool
@@ -67,6 +61,28 @@ def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iter
         and ``cut`` do not count then.
     cut : str
         Where parts are cut from each other: properties.SeparateProperties.cut.
+    """
+
+    kind: str
+    close: bool = False
+    one_file: bool = False
+    separated: bool = False
+    cut: str = "FACES"
+
+
+def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
+                 style: ExportStyle) -> list[Path]:
+    """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
+
+    Parameters
+    ----------
+    files : RunFiles
+        Puts the files in their places when all is written.
+    objects : iterable of (bpy.types.Object, iterable of int or None)
+        In Object Mode, with parts; which parts, None for all.
+    folder : Path
+        Made if it is not there.
+    style : ExportStyle
 
     Returns
     -------
@@ -82,13 +98,13 @@ def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iter
     paths = []
     with _stage() as stage:
         for obj, wanted in objects:
-            pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, cut)
+            pieces = _separated(obj, wanted) if style.separated else _parts(obj, wanted, style.close, style.cut)
+            by_file = ([(obj.name, pieces)] if style.one_file or style.kind == "3mf"
+                       else [(name, {name: piece}) for name, piece in pieces.items()])
             with _removed(pieces):
-                if kind == "3mf" or one_file:
-                    paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind, stage))
-                    continue
-                for name, piece in pieces.items():
-                    paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: piece}, kind, stage))
+                for name, of_file in by_file:
+                    path = folder / f"{names.free(name)}.{style.kind}"
+                    paths.append(_write(files, path, obj, of_file, style.kind, stage))
     return paths
 
 

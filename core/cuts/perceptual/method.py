@@ -20,6 +20,7 @@ from ...surface.coarsening import Pyramid
 from ...surface.denoising import denoised
 from ...surface.sheets import Inflated, inflated, sheet_faces
 from ..boosted_trees import BoostedTrees
+from ..foundation import Foundation
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import MovableCuts, move_cuts
 from ..patches import concave_patches
@@ -35,9 +36,7 @@ SHARE_AT_HALF, SHEET_SHARE_AT_HALF = 0.55, 0.6
 
 
 def perceptual_candidates(
-    sets: LevelSets,
-    field: ScalarField,
-    pyramid: Pyramid,
+    foundation: Foundation,
     parameters: Parameters,
     model: BoostedTrees | None = None,
     progress: Callable[[float], None] | None = None,
@@ -46,12 +45,7 @@ def perceptual_candidates(
 
     Parameters
     ----------
-    sets : LevelSets
-        Level sets of one connected component.
-    field : ScalarField
-        AGD of the component.
-    pyramid : Pyramid
-        Coarser copies of the component's mesh.
+    foundation : Foundation
     parameters : Parameters
     model : BoostedTrees, optional
         Model that judges cuts. Without it, those that ship with the package: one of closed surfaces, one of sheets.
@@ -68,6 +62,7 @@ def perceptual_candidates(
     ReebError
         A model that ships with the package was trained on other features.
     """
+    pyramid, field, sets = foundation
     progress = progress or (lambda share: None)
     judges = Judges(CutJudge(model or cut_model(), SHARE_AT_HALF),
                     CutJudge(model or sheet_model(), SHEET_SHARE_AT_HALF))

@@ -176,8 +176,26 @@ def _shared(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> tuple[np
     return *pairs.T, np.bincount(index, area, len(pairs))
 
 
-def own_halves(before: np.ndarray, asked: np.ndarray, twin: np.ndarray, side: np.ndarray,
-               own_side: np.ndarray) -> np.ndarray:
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """Where the faces of a symmetric model lie, and its parts.
+
+    Attributes
+    ----------
+    twin : (p,) int64
+        Mirror image of each face; -1 for none.
+    of_face : (p,) int
+        1 or -1 for the two sides of the plane of symmetry, 0 for a face across it.
+    of_part : (k,) int
+        Side of the part of each number; 0 for a part without an image on the other side.
+    """
+
+    twin: np.ndarray
+    of_face: np.ndarray
+    of_part: np.ndarray
+
+
+def own_halves(before: np.ndarray, asked: np.ndarray, sides: Sides) -> np.ndarray:
     """Leave to the image of a part what that would take itself, where the part takes faces together with their images.
 
     A part that touches the plane of symmetry grows beyond it, and its image, which grows as well, has the better claim
@@ -187,30 +205,25 @@ def own_halves(before: np.ndarray, asked: np.ndarray, twin: np.ndarray, side: np
     ----------
     before, asked : (p,) int64
         Number of the part of each face before a change and after it.
-    twin : (p,) int64
-        Mirror image of each face; -1 for none.
-    side : (p,) int
-        1 or -1 for the two sides of the plane of symmetry, 0 for a face across it.
-    own_side : (k,) int
-        Side of the part of each number; 0 for a part without an image on the other side.
+    sides : Sides
 
     Returns
     -------
     asked : (p,) int64
         As before where both sides would have gone to a part of the other one.
     """
-    return np.where(are_beyond(before, asked, twin, side, own_side), before, asked)
+    return np.where(are_beyond(before, asked, sides), before, asked)
 
 
-def are_beyond(before: np.ndarray, after: np.ndarray, twin: np.ndarray, side: np.ndarray,
-               own_side: np.ndarray) -> np.ndarray:
+def are_beyond(before: np.ndarray, after: np.ndarray, sides: Sides) -> np.ndarray:
     """Which faces a change gave to a part that lies on the other side, and their images to the same part, (p,) bool.
 
-    As in ``own_halves``; a number beyond those of ``own_side`` is that of a new part, which has no side.
+    As in ``own_halves``; a number beyond those of ``sides.of_part`` is that of a new part, which has no side.
     """
+    twin = sides.twin
     given = (before != after) & (twin >= 0)
-    of_part = np.append(own_side, 0)[np.minimum(after, len(own_side))]
-    return given & given[twin] & (after == after[twin]) & (side * of_part < 0)
+    side_of_part = np.append(sides.of_part, 0)[np.minimum(after, len(sides.of_part))]
+    return given & given[twin] & (after == after[twin]) & (sides.of_face * side_of_part < 0)
 
 
 def on_both_sides(

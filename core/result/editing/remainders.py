@@ -10,7 +10,7 @@ from ...arrays.pairs import both_ways
 from ...arrays.ties import TIE
 from ...mesh.face_graph import FaceGraph
 from ...mesh.labels import majority
-from .mirrored import are_beyond
+from .mirrored import Sides, are_beyond
 
 #: A piece goes along if it is smaller than this share of the largest that is left of its part ...
 BESIDE_LARGEST = 1 / 3
@@ -58,8 +58,9 @@ def with_small_pieces(
     return np.where(taker >= 0, taker, after)
 
 
-def halved_between_images(graph: FaceGraph, without: np.ndarray, after: np.ndarray, twin: np.ndarray,
-                          side: np.ndarray, own_side: np.ndarray, image: np.ndarray) -> np.ndarray:
+def halved_between_images(
+    graph: FaceGraph, without: np.ndarray, after: np.ndarray, sides: Sides, image: np.ndarray
+) -> np.ndarray:
     """Divide what lies between a part and its image, touches both alike and went along with one of them.
 
     Parameters
@@ -68,12 +69,7 @@ def halved_between_images(graph: FaceGraph, without: np.ndarray, after: np.ndarr
         Of n faces.
     without, after : (n,) int64
         Number of the part of each face without what went along, and with it.
-    twin : (n,) int64
-        Mirror image of each face; -1 for none.
-    side : (n,) int
-        1 or -1 for the two sides of the plane of symmetry, 0 for a face across it.
-    own_side : (k,) int
-        Side of the part of each number; 0 for a part without an image on the other side.
+    sides : Sides
     image : (k,) int64
         Number of the image of the part of each number.
 
@@ -82,7 +78,7 @@ def halved_between_images(graph: FaceGraph, without: np.ndarray, after: np.ndarr
     after : (n,) int64
         Each part has what is on its side, and what is across the plane stays; as given if that leaves more pieces.
     """
-    between = are_beyond(without, after, twin, side, own_side)
+    between = are_beyond(without, after, sides)
     if not between.any():
         return after
     halved = np.where(between, image[after], after)

@@ -120,17 +120,19 @@ class Room:
             return ()
         wide = np.unique(np.concatenate([wide[:1], wide[:: len(wide) // _MOST + 1]]))
         flat, room = self.flat[wide], self.room[wide]
-        low, high = _under(self.grid, flat, reach)
-        depth = self._depth(_Trial(self.grid, flat, reach, wall), low, high, radius, into)
+        ends = _under(self.grid, flat, reach)
+        depth = self._depth(_Trial(self.grid, flat, reach, wall), ends, radius, into)
         good = np.flatnonzero(depth >= 0)
         chosen = good[_packed(flat[good], room[good], count, 2 * reach + wall)]
-        return self._made(flat[chosen], low[chosen], high[chosen], depth[chosen], radius, into)
+        # All as deep as the least deep of them can be.
+        return self._made(flat[chosen], ends[:, chosen], float(depth[chosen].min(initial=np.inf)), radius, into)
 
-    def _depth(self, trial: _Trial, low: np.ndarray, high: np.ndarray, radius: float, into: int) -> np.ndarray:
+    def _depth(self, trial: _Trial, ends: np.ndarray, radius: float, into: int) -> np.ndarray:
         """How deep a joint can be at each of some places, (k,) float64; -1 where it cannot be.
 
-        low, high : (k,), of the cap under the joint; nan if it does not go so far.
+        ends : (2, k), the lowest and the highest of the cap under the joint; nan if it does not go so far.
         """
+        low, high = ends
         wanted, bodies, sign = self.wanted, self.bodies, 1.0 if into else -1.0
         deep, least = (wanted.depth, wanted.depth) if wanted.depth else (
             radius * np.array(_DEPTH.get(wanted.kind, _DEEP))).tolist()
@@ -146,21 +148,19 @@ class Room:
             possible &= depth >= least * (1 - 1e-9)
         return np.where(possible, depth, -1.0)
 
-    def _made(self, flat: np.ndarray, low: np.ndarray, high: np.ndarray, depth: np.ndarray, radius: float,
-              into: int) -> tuple[Joint, ...]:
-        """Joints at the places chosen, all as deep as the least deep can be. low, high, depth : (k,), see _depth."""
-        deep = float(depth.min(initial=np.inf))
-        foot = deep if self.wanted.kind.both_sides else _FOOT * radius
+    def _made(self, flat: np.ndarray, ends: np.ndarray, depth: float, radius: float, into: int) -> tuple[Joint, ...]:
+        """Joints of one depth at k places. ends : (2, k), where the cap lies below each, at the lowest and highest."""
+        foot = depth if self.wanted.kind.both_sides else _FOOT * radius
         axes = self.grid.axes if into else self.grid.axes * [[1], [-1], [-1]]
-        ends = np.sort([low, high] if into else [-low, -high], axis=0)
-        return tuple(Joint(self.grid.world(place, np.zeros(())), axes, radius, first, last, deep, foot)
-                     for place, first, last in zip(flat, *ends.tolist(), strict=True))
+        low, high = ends if into else -ends[::-1]
+        return tuple(Joint(self.grid.world(place, np.zeros(())), axes, radius, first, last, depth, foot)
+                     for place, first, last in zip(flat, low.tolist(), high.tolist(), strict=True))
 
 
-def _under(grid: CapGrid, flat: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest and the highest place of the cap under the disks around places; nan if it does not go so far."""
+def _under(grid: CapGrid, flat: np.ndarray, reach: float) -> np.ndarray:
+    """The lowest and the highest place of the cap under the disks around k places, (2, k); nan if it goes less far."""
     low, high = grid.heights((flat[:, None] + _disk(reach)).reshape(-1, 2))
-    return low.reshape(len(flat), -1).min(axis=1), high.reshape(len(flat), -1).max(axis=1)
+    return np.stack([low.reshape(len(flat), -1).min(axis=1), high.reshape(len(flat), -1).max(axis=1)])
 
 
 def _disk(radius: float) -> np.ndarray:

@@ -17,8 +17,7 @@ def test_marks_lie_in_the_view_plane_around_their_node(markers):
     places = np.array([(0.0, 0.0, 0.0), (5.0, 1.0, 2.0), (-3.0, 0.0, 1.0)])
     kinds = ["minimum", "saddle", "maximum"]
     colors = np.array([(1, 1, 0, 1), (0, 0, 0.2, 1), (0.2, 0.6, 0.9, 1)], float)
-    right, up = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
-    points, shades = markers.marks(places, kinds, colors, right, up, np.array([1.0, 2.0, 3.0]))
+    points, shades = markers.marks(places, kinds, colors, np.eye(3)[1:], np.array([1.0, 2.0, 3.0]))
     assert points.dtype == shades.dtype == np.float32
     assert points.flags.c_contiguous
     assert shades.flags.c_contiguous
@@ -39,9 +38,9 @@ def test_marks_lie_in_the_view_plane_around_their_node(markers):
 
 
 def test_a_chosen_mark_has_a_bright_rim_around_the_dark_one(markers):
-    place, color, axes = np.zeros((1, 3)), np.array([(1.0, 1.0, 0.0, 1.0)]), np.eye(3)
-    plain, _ = markers.marks(place, ["minimum"], color, axes[0], axes[1], np.ones(1), [False])
-    points, shades = markers.marks(place, ["minimum"], color, axes[0], axes[1], np.ones(1), [True])
+    place, color, axes = np.zeros((1, 3)), np.array([(1.0, 1.0, 0.0, 1.0)]), np.eye(3)[:2]
+    plain, _ = markers.marks(place, ["minimum"], color, axes, np.ones(1), [False])
+    points, shades = markers.marks(place, ["minimum"], color, axes, np.ones(1), [True])
     assert np.array_equal(points[-len(plain):], plain)
     assert np.linalg.norm(points[:-len(plain)], axis=1).max() == pytest.approx(markers.LIT)
     assert shades[0].min() > 0.8

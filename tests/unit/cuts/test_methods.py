@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
+from core.cuts.foundation import Foundation
 from core.cuts.methods import find_candidates
 from core.field.agd import protrusion_field
 from core.graph.level_sets import cut_at_levels, uniform_levels
@@ -17,18 +18,18 @@ from core.surface.coarsening import Pyramid
 
 @pytest.fixture(scope="module")
 def stages():
-    """Level sets, field, topology and pyramid of a small surface with limbs."""
+    """Pyramid, field and level sets of a small surface with limbs, and its topology."""
     mesh = TriMesh(*shapes.dumbbell(neck=0.05))
     pyramid = Pyramid(mesh)
     field = protrusion_field(pyramid, 0.005, True)
     sets = cut_at_levels(mesh, field.values, uniform_levels(50))
-    return sets, field, lambda: without_ripples(sets, reeb_topology(sets), field), pyramid
+    return Foundation(pyramid, field, sets), lambda: without_ripples(sets, reeb_topology(sets), field)
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_each_method_partitions_the_surface_and_merges_all(stages, method):
     found = find_candidates(*stages, Parameters(method=method))
-    sets, used = stages[0], np.unique(found.element_candidate)
+    sets, used = stages[0].sets, np.unique(found.element_candidate)
     assert found.element_candidate.shape == sets.element_face.shape
     assert used.tolist() == list(range(found.hierarchy.n_candidates))
     assert found.hierarchy.n_loose == 1

@@ -7,6 +7,7 @@ import shapes
 
 from core import Parameters, TriMesh, decompose
 from core.arrays.components import components
+from core.cuts.foundation import Foundation
 from core.cuts.minimum_cut import WIDEST
 from core.cuts.patches import concave_patches
 from core.cuts.perceptual.method import MAX_FACES, SHARE_AT_HALF, perceptual_candidates, salience_of
@@ -63,19 +64,20 @@ def tree():
     mesh = TriMesh(*shapes.tube_tree())
     pyramid = Pyramid(mesh)
     field = agd_field(mesh, coarse_agd(pyramid, np.sqrt(0.02 * mesh.area)), True)
-    return cut_at_levels(mesh, field.values, uniform_levels(30)), field, pyramid, concave_patches(mesh)
+    return Foundation(pyramid, field, cut_at_levels(mesh, field.values, uniform_levels(30))), concave_patches(mesh)
 
 
 def test_nothing_moves_without_a_band(tree):
-    sets, field, pyramid, patches = tree
-    found = perceptual_candidates(sets, field, pyramid, Parameters(band_ratio=0.0))
-    np.testing.assert_array_equal(found.element_candidate, patches[sets.element_face])
+    foundation, patches = tree
+    found = perceptual_candidates(foundation, Parameters(band_ratio=0.0))
+    np.testing.assert_array_equal(found.element_candidate, patches[foundation.sets.element_face])
 
 
 def test_with_a_band_faces_beside_the_cuts_move_and_nothing_else(tree):
-    sets, field, pyramid, patches = tree
+    foundation, patches = tree
+    sets = foundation.sets
     mesh = sets.mesh
-    still, found = (perceptual_candidates(sets, field, pyramid, Parameters(band_ratio=ratio)) for ratio in (0.0, 1.0))
+    still, found = (perceptual_candidates(foundation, Parameters(band_ratio=ratio)) for ratio in (0.0, 1.0))
     element, hierarchy = found.element_candidate, found.hierarchy
     np.testing.assert_array_equal(hierarchy.merges, still.hierarchy.merges)
     np.testing.assert_array_equal(hierarchy.salience, still.hierarchy.salience)

@@ -11,6 +11,7 @@ from face_graphs import path
 from core.mesh.face_graph import FaceGraph
 from core.result.editing.mirrored import (
     MirroredChange,
+    Sides,
     cleaned,
     gathered,
     on_both_sides,
@@ -70,7 +71,7 @@ SIDE = np.array([1] * 5 + [-1] * 5)
 def test_of_faces_and_their_images_each_side_has_its_own(asked, halves, expected):
     """The part across the plane ends where the user has given all of it away."""
     before, asked, twin = np.array(BEFORE), np.array(asked), np.array(TWIN)
-    found = own_halves(before, asked, twin, SIDE, np.array([0, 1, -1, 0]))
+    found = own_halves(before, asked, Sides(twin, SIDE, np.array([0, 1, -1, 0])))
     assert found.tolist() == halves
     both = on_both_sides(before, found, twin, NUMBERS, lambda: 9, np.setdiff1d(before, asked).tolist())
     assert both.tolist() == expected

@@ -7,6 +7,7 @@ import shapes
 from face_graphs import graph_of, n_connected, patches, path
 
 from core.mesh.face_graph import FaceGraph
+from core.result.editing.mirrored import Sides
 from core.result.editing.remainders import halved_between_images, with_small_pieces
 
 
@@ -109,11 +110,12 @@ def test_images_are_treated_alike():
 def test_what_lies_between_images_is_divided(without, after, expected):
     count = len(without)
     twin = np.arange(count)[::-1]
-    image, own_side = np.array([0, 2, 1, 3, 4]), np.array([0, -1, 1, 0, 0])
     side = np.sign(np.arange(count) - (count - 1) / 2).astype(int)
+    image = np.array([0, 2, 1, 3, 4])
     row, without, after = np.arange(count), np.array(without), np.array(after)
     for order in (row, row[::-1]):  # in either order of the faces, of which twins are as far from the end
-        result = halved_between_images(path(count), without[order], after[order], twin, side[order], own_side, image)
+        sides = Sides(twin, side[order], np.array([0, -1, 1, 0, 0]))
+        result = halved_between_images(path(count), without[order], after[order], sides, image)
         assert result[order].tolist() == expected
 
 
@@ -124,5 +126,5 @@ def test_what_has_no_twin_is_not_between_images():
     image, own_side = np.array([0, 2, 1, 3]), np.array([0, -1, 1, 0])
     side = np.array([-1, -1, -1, 1, 1, 1])
     for twins, last in (([4, 3, 5, 1, 0, 2], 2), ([4, 3, -1, 1, 0, -1], 1)):
-        found = halved_between_images(graph, without, after, np.array(twins), side, own_side, image)
+        found = halved_between_images(graph, without, after, Sides(np.array(twins), side, own_side), image)
         assert found.tolist() == [1, 1, 1, 2, 2, last]
