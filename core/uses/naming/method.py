@@ -91,8 +91,7 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
 def _words(shapes: Shapes) -> dict[int, str]:
     """The words for those parts that have one, by their number."""
     words = dict.fromkeys(_handles(shapes), "handle")
-    creature = [] if words or len(shapes.ground) - shapes.ground.sum() < 2 else _creature(shapes)
-    for word, found in creature:
+    for word, found in [] if words else _creature(shapes):
         for part in found:
             words.setdefault(part, word)
     for pair in shapes.pairs:

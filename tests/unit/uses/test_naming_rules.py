@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rules by which parts get their names, each at its limit: of boxes, of which only is known where they are."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -27,8 +28,14 @@ MAN = {
 }
 
 
-def shapes_of(model, pairs=()):
-    """Shapes of boxes. pairs : names of parts that are mirror images of each other."""
+NO_LOOPS = SimpleNamespace(n_loops=0)
+
+
+def shapes_of(model, pairs=(), ground=(), graph=NO_LOOPS, **of_graph):
+    """Shapes of boxes. pairs : names of parts that are mirror images of each other. ground : names of grounds.
+
+    of_graph : which parts the nodes and points of the graph are in.
+    """
     names = list(model)
     middle, size, share = (np.array([part[k] for part in model.values()], float) for k in range(3))
     cuts = [(names.index(name), k) for k, (_, _, _, on) in enumerate(model.values()) for name in on.split(", ") if name]
@@ -37,8 +44,8 @@ def shapes_of(model, pairs=()):
         one, other = map(names.index, pair)
         side[[one, other]], twin[[one, other]] = (1, -1), (other, one)
     parts = SimpleNamespace(count=len(names), share=share / share.sum(), cuts=np.array(cuts), side=side, twin=twin,
-                            decomposition=SimpleNamespace(graph=SimpleNamespace(n_loops=0)))
-    touching = Touching(parts, np.zeros(len(names), bool))
+                            decomposition=SimpleNamespace(graph=graph), **of_graph)
+    touching = Touching(parts, np.isin(names, ground))
     return Shapes(touching, middle - size / 2, middle + size / 2, middle, -np.sort(-size, axis=1), across=0)
 
 
@@ -61,6 +68,12 @@ def test_a_cow_and_a_man_have_all_their_words():
     assert named(MAN) == {
         "body": Suggestion("body"), "head": Suggestion("head"), "arm 1": Suggestion("arm", "", 1),
         "arm -1": Suggestion("arm", "", -1), "leg 1": Suggestion("leg", "", 1), "leg -1": Suggestion("leg", "", -1)}
+
+
+def test_where_a_model_stands_does_not_matter():
+    place = np.array([3.0, -2.0, 5.0])
+    for model in (COW, MAN):
+        assert named({name: (place + middle, *more) for name, (middle, *more) in model.items()}) == named(model)
 
 
 BLOCK = {"body": ((0, 0, 0), (1, 1, 1), 0.8, "")}
@@ -188,6 +201,8 @@ def neck(width):
     ("arm 1", man(**{"arm 1": arm(z=0.91)}), "arm", man(**{"arm 1": arm(z=0.89)}), "limb"),
     ("arm 1", man(**{"arm 1": arm()}), "arm", man(**{"arm 1": arm(on="body, head")}), "piece"),
     # What is between it and the body is one, too, if it is beside the middle.
+    ("pad", man(pad=((0.3, 0, 1.5), (0.1, 0.1, 0.1), 0.02, "body"), **{"arm 1": arm(on="body, pad")}), "piece",
+     man(pad=((0.3, 0, 1.5), (0.1, 0.1, 0.1), 0.02, "body"), **{"arm 1": arm(on="pad")}), "arm"),
     ("shoulder", man(shoulder=((0.061, 0, 1.5), (0.1, 0.1, 0.1), 0.02, "body"), **{"arm 1": arm(on="shoulder")}), "arm",
      man(shoulder=((0.059, 0, 1.5), (0.1, 0.1, 0.1), 0.02, "body"), **{"arm 1": arm(on="shoulder")}), "piece"),
     # A tail is long, thin and behind, 0.3 of the length, and does not touch the head.
@@ -213,6 +228,8 @@ def test_more_than_four_legs_have_no_head():
     """Legs that hang on each other are one, but for feet that touch the body."""
     five = words(cow(middle=leg(0.15, 0.0)))
     assert set(five.values()) == {"body", "leg", "limb", "tip"}
+    assert set(words(cow(middle=leg(0.15, 0.0), shoe=leg(0.15, 0.0, (0.14, 0.2, 0.1), on="middle"))).values()) == {
+        "body", "leg", "limb", "tip"}
     shoes = {f"shoe {name}": ((*part[0][:2], 0.05), (0.14, 0.2, 0.1), 0.01, name)
              for name, part in COW.items() if "leg" in name}
     assert set(words(cow(**shoes)).values()) == {"body", "leg", "head", "tail"}
@@ -257,3 +274,78 @@ def test_of_two_pairs_of_ears_the_inner_one_are_horns_if_it_is_higher(inner, out
     for order in (pairs, dict(reversed(pairs.items()))):
         result = words(COW, [("inner 1", "inner -1"), ("outer 1", "outer -1")], **order)
         assert [result[name] for name in ("inner 1", "inner -1", "outer 1", "outer -1")] == [found, found, "ear", "ear"]
+
+
+@pytest.mark.parametrize(("part", "ahead"), [
+    ((0, 0.95, 0.9), -1),  # lower than the middle of the body
+    ((0.07, 0.95, 1.2), -1),  # beside the midst
+    ((0, 0.3, 1.2), -1),  # not so far from the body's middle
+    ((0.05, 0.4, 1.2), 1),
+])
+def test_a_head_is_where_most_is_high_far_out_and_in_the_midst(part, ahead):
+    assert shapes_of(COW).ahead == -1
+    assert shapes_of(COW | {"more": (part, (0.1, 0.1, 0.1), 0.5, "body")}).ahead == ahead
+
+
+def test_of_two_ways_to_look_the_first_counts_unless_the_other_has_a_head_and_more_words():
+    whole, tailless, headless = shapes_of(COW), shapes_of(cow(tail=tail(0.56))), shapes_of(cow(head=head(x=0.064)))
+    found = {name: suggestions(replace(one, others=(other,))) for name, one, other in (
+        ("more", tailless, whole), ("less", whole, tailless), ("as many", headless, replace(headless, across=0)),
+        ("a head", headless, tailless), ("no head", tailless, headless))}
+    assert found["more"] == found["less"] == suggestions(whole)
+    assert found["a head"] == found["no head"] == suggestions(tailless)
+    assert found["as many"] == suggestions(headless)
+
+
+def test_which_axis_is_across_a_creature_does_not_matter():
+    turned = {name: ((y, x, z), (depth, width, height), *more)
+              for name, ((x, y, z), (width, depth, height), *more) in COW.items()}
+    for knob, back in (((-0.4, 0, 1), "front"), ((0.4, 0, 1), "back")):
+        model = turned | {"knob": (knob, (0.1, 0.1, 0.1), 0.01, "body")}
+        found = dict(zip(model, suggestions(replace(shapes_of(model), across=1)), strict=True))
+        assert found == named(COW) | {"knob": Suggestion("tip", back)}
+
+
+def test_a_ground_is_no_part_of_a_creature():
+    """It touches all legs and is larger than all else."""
+    floor = ((3, 0, -0.1), (9, 9, 0.2), 50, ", ".join(name for name in COW if "leg" in name))
+    model = cow(floor=floor)
+    found = dict(zip(model, suggestions(shapes_of(model, ground=["floor"])), strict=True))
+    assert found == named(COW) | {"floor": Suggestion("ground")}
+    alone = {"body": COW["body"], "floor": (*floor[:3], "body")}
+    assert suggestions(shapes_of(alone, ground=["floor"])) == [Suggestion("body"), Suggestion("ground")]
+
+
+def handled(nodes, arcs, handle=((0.6, 0, 0), (0.2, 0.1, 0.4), 0.1, "body"), model=BLOCK, **more):
+    """Words for a block with a handle, which is part 1. arcs : two nodes each, and the parts of the points."""
+    points = [points for _, points in arcs]
+    graph = SimpleNamespace(
+        n_loops=1, arcs=np.array([ends for ends, _ in arcs]), arc_points=np.cumsum([0, *map(len, points)]),
+        point_arc=np.repeat(np.arange(len(arcs)), [len(part) for part in points]))
+    names = {"body": model["body"], "handle": handle, **model, **more}
+    shapes = shapes_of(names, graph=graph, point_part=np.concatenate(points), node_part=np.array(nodes))
+    return dict(zip(names, (found.word for found in suggestions(shapes)), strict=True))
+
+
+@pytest.mark.parametrize("graph", [
+    ((0, 0), [((0, 1), [0, 0, 1, 1, 0])]), ((0, 0), [((0, 1), [1, 1])]),
+    ((0, 1, 0), [((0, 1), [0, 1]), ((2, 1), [0, 1])]), ((0, 1, 0), [((0, 1), [0]), ((1, 2), [0])])])
+def test_what_the_graph_enters_and_leaves_is_a_handle(graph):
+    assert handled(*graph) == {"body": "body", "handle": "handle"}
+
+
+@pytest.mark.parametrize(("graph", "changed", "word"), [
+    (((0, 1), [((0, 1), [0, 1])]), {}, "limb"),  # it ends there
+    (((0, 0), [((0, 1), [0, 1, 0, 1, 0])]), {}, "limb"),  # it is there twice
+    (((0, 0), [((0, 1), [1, 1])]), {"handle": ((0.6, 0, 0), (0.2, 0.1, 0.4), 0.9, "body")}, "body"),
+    (((0, 0), [((0, 1), [1, 1])]), {"end": ((0.8, 0, 0), (0.1, 0.1, 0.1), 0.1, "handle")}, "piece"),
+    (((0, 0), [((0, 1), [1, 1])]), {"handle": ((0.6, 0, 0), (0.2, 0.1, 0.242), 0.1, "body")}, "handle"),
+    (((0, 0), [((0, 1), [1, 1])]), {"handle": ((0.6, 0, 0), (0.2, 0.1, 0.238), 0.1, "body")}, "tip")])
+def test_a_handle_is_smaller_than_the_one_part_that_it_touches_and_longer_than_wide(graph, changed, word):
+    assert handled(*graph, **changed)["handle"] == word
+
+
+def test_what_has_a_handle_is_no_creature():
+    found = handled((0, 0), [((0, 1), [1, 1])], ((0.3, 0, 1), (0.2, 0.1, 0.4), 0.1, "body"), COW)
+    assert found["handle"] == "handle"
+    assert set(found.values()).isdisjoint({"head", "leg", "tail"})
