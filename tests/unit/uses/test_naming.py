@@ -237,20 +237,6 @@ def test_a_muzzle_is_no_head():
     assert [(name.word, name.side) for name in names[8:]] == [("tip", 0), ("ear", 1), ("ear", -1)]
 
 
-@pytest.mark.parametrize(("inner", "outer", "found"), [
-    (2.3, 2.2, {"horn": 2, "ear": 2}), (2.2, 2.3, {"ear": 4}),  # as eyes are, lower
-])
-def test_what_is_lower_between_ears_are_no_horns(inner, outer, found):
-    pairs = [((side * x, -1.0, z), (0.08, 0.08, 0.16)) for x, z in ((0.08, inner), (0.2, outer)) for side in (1, -1)]
-    names = of_boxes([*BULL, *pairs])
-    assert {word: count for word, count in words(names).items() if word in {"horn", "ear"}} == found
-
-
-def test_a_bun_in_the_middle_of_a_head_is_no_ear():
-    names = of_boxes([*BULL, ((0, -1.0, 2.25), (0.08, 0.08, 0.2))])
-    assert [(name.word, name.place) for name in names[8:]] == [("limb", "top")]
-
-
 @pytest.mark.parametrize("seed", range(200))
 def test_the_body_is_what_leaves_the_smallest_remainders(seed):
     """Any parts that touch in any way: each is taken away, and what hangs together then is added up."""

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What pairs of parts look like: finite on any mesh, and the same wherever and however the mesh lies."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import shapes
@@ -60,6 +62,29 @@ def test_how_much_of_a_part_is_near_the_other_and_elsewhere_near_any_other():
     of_first = np.flatnonzero((found.parts == 0).any(axis=1))
     assert column["elsewhere_large"][of_first] == pytest.approx(column["near_large_2"][of_first[::-1]])
     assert column["elsewhere_small"][found.parts.tolist().index([2, 3])] == pytest.approx(0.0)
+
+
+def test_how_parts_differ_does_not_depend_on_which_is_first():
+    found = measured(*furniture())
+    column = dict(zip(FEATURES, found.features.T, strict=True))
+    area, agd, center = (value[found.parts] for value in (found.shapes.area, found.shapes.agd, found.shapes.center))
+    np.testing.assert_allclose(column["log_ratio"], np.log(area.max(axis=1) / area.min(axis=1)), rtol=1e-12)
+    np.testing.assert_allclose(column["agd_change"], np.abs(agd[:, 0] - agd[:, 1]), rtol=1e-12)
+    np.testing.assert_allclose(column["distance"], np.linalg.norm(center[:, 0] - center[:, 1], axis=1), rtol=1e-12)
+
+
+def test_the_place_where_two_parts_touch_by_hand():
+    """Two points of areas 1 and 3 are within 0.012 of the other part, the second just so; a third one is not."""
+    along = np.array([0.0, 0.4, 9.0, 0.0])
+    points = SimpleNamespace(position=along[:, None] * [1.0, 0.0, 0.0], area=np.array([1.0, 3.0, 7.0, 1.0]))
+    near = SimpleNamespace(points=points, parts=np.array([[0, 1]]), row=np.zeros(3, int),
+                           ends=np.array([[0, 3], [1, 3], [2, 3]]), distance=np.array([0.0, 0.012, 0.0121]))
+    normal = np.array([(0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 0.0, -1.0), (0.0, 0.6, 0.8)])
+    found = pairs._contact_columns(near, normal, np.array([0.2, 0.6, 1.0, 0.0]), np.zeros(1), np.array([0.25]))
+    spread = np.sqrt((1 * 0.3**2 + 3 * 0.1**2) / 4)
+    expected = {"normals": (1 * 0.8 + 3 * 0.6) / 4, "contact_spread": spread, "contact_extent": 2 * spread,
+                "height": (1 * 0.2 + 3 * 0.6) / 4}
+    assert {name: value.item() for name, value in found.items()} == pytest.approx(expected, rel=1e-12)
 
 
 def test_every_two_parts_that_share_an_edge_are_seen_or_unseen_neighbors():
