@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts over several pieces: of shells that touch, of bodies far apart, of a mesh that was taken apart."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -107,6 +108,67 @@ def test_what_is_said_of_a_pair_that_comes_near_weighs_more_than_what_is_said_of
     assert found.score == pytest.approx([method.NEARNESS * 2 / (method.NEARNESS + 1), np.log(9), -np.log(9)], abs=1e-3)
     assert found.weight == pytest.approx([0.5 * (method.NEARNESS + 1), 0.5, 0.6])
     assert found.near.tolist() == [True, False, False]
+
+
+class Equal:
+    """A model that gives all pairs one share."""
+
+    def __init__(self, share):
+        self.share = share
+
+    def predict(self, features):
+        return np.full(len(features), self.share)
+
+
+def balls(*radii, apart=0.0):
+    """A row of balls that touch, or nearly so, and the piece of each face."""
+    at = np.cumsum([0.0, *(a + b + apart for a, b in pairwise(radii))])
+    row = [shapes.moved(shapes.icosphere(3, radius), (x, 0.0, 0.0)) for radius, x in zip(radii, at, strict=True)]
+    return TriMesh(*shapes.together(*row)), np.repeat(np.arange(len(radii)), 1280)
+
+
+def joined(mesh, label, hierarchy, share, **options):
+    """The hierarchy over parts of which all pairs are one with some certainty, and the contacts."""
+    parts = fine_parts(mesh, label, hierarchy, np.zeros(mesh.n_vertices), **options)
+    return parts, *join_parts(parts, JoinModel(Equal(share), None))
+
+
+@pytest.mark.parametrize(("share", "salience"), [(0.25, 0.75), (0.5, 0.5), (0.75, 0.5 * (0.5 + method.FINE))])
+def test_a_salience_is_how_unsure_it_is_that_two_are_one(share, salience):
+    _, hierarchy, contacts = joined(*balls(1.0, 1.0), Hierarchy.of(2, [], []), share)
+    assert hierarchy.merges.tolist() == [[0, 1]]
+    assert hierarchy.salience[0] == pytest.approx(salience, abs=1e-3)
+    assert (contacts // 1280).tolist() == [[0, 1]]
+
+
+def test_small_parts_are_more_often_one_with_others():
+    """Even odds are multiplied by a tenth power of how many times smaller than a tenth of the area it is."""
+    parts, hierarchy, _ = joined(*balls(1.0, 0.2), Hierarchy.of(2, [], []), 0.5)
+    odds = (method.LARGE / parts.pairs.shapes.area.min()) ** method.EASE
+    assert odds > 1.05
+    assert hierarchy.salience[0] == pytest.approx(
+        np.interp(odds / (1 + odds), [0.5, 1.0], [0.5, method.FINE]), abs=1e-3)
+
+
+def test_contacts_are_where_pieces_touch_and_where_parts_merge():
+    """Of three balls in a ring two merges join all; the third two touch as well, but not where all are apart."""
+    ball, corner = shapes.icosphere(3), 2.0 * np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, np.sqrt(0.75), 0.0)])
+    for size, count in ((1.0, 3), (1.02, 2)):
+        mesh = TriMesh(*shapes.together(*(shapes.moved(ball, size * at) for at in corner)))
+        _, _, contacts = joined(mesh, np.repeat(np.arange(3), 1280), Hierarchy.of(3, [], []), 0.5)
+        assert len(contacts) == count
+        assert (contacts[:, 0] // 1280 != contacts[:, 1] // 1280).all()
+
+
+@pytest.mark.parametrize(("learned", "salience", "count"), [
+    (True, 0.05, 2), (True, 0.07, 3), (False, 0.19, 2), (False, 0.21, 3)])
+def test_candidates_of_a_piece_are_together_below_a_salience(learned, salience, count):
+    mesh, label = balls(1.0, 1.0)
+    label = np.where((label == 0) & (mesh.face_centroids[:, 2] > 0), 2, label)
+    parts, hierarchy, _ = joined(mesh, label, Hierarchy.of(3, [(0, 2)], [salience]), 0.5, learned=learned)
+    assert len(parts.candidate) == count
+    assert hierarchy.n_loose == 1
+    assert (hierarchy.salience[0] == salience) == (count == 2)
 
 
 def test_two_far_spheres():
