@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Part numbers that follow the parts: answers worked out by hand, and identities."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import shapes
@@ -9,7 +11,7 @@ from decompositions import decomposition_of
 from core import Parameters, decompose
 from core.arrays.components import components
 from core.mesh.labels import majority
-from core.result.numbering import Numbering, follow, inherited
+from core.result.numbering import NumberedParts, Numbering, follow, inherited
 from core.uses.colors import number_colors, number_places
 
 ROUNDING = pytest.mark.parametrize("rounding", [-1e-15, 0.0, 1e-15])  # of one of two areas
@@ -102,6 +104,13 @@ def test_first_numbers_are_the_labels(result):
     numbered = Numbering.of(result, numbers, none(result)).parts(0.5)
     assert (numbered.face_numbers == result.parts(0.5).labels + 1).all()
     assert numbered.names == result.parts(0.5).names
+
+
+def test_mirror_images_are_named_by_the_lower_number_of_the_two_and_their_side():
+    """Parts 2 and 7 are images of each other, 4 is its own, 9 has none."""
+    parts = SimpleNamespace(twin=np.array([2, 1, 0, -1]), side=np.array([-1, 0, 1, 0]))
+    names = NumberedParts(parts, np.array([2, 4, 7, 9]), None).names
+    assert names == ("Part 02.R", "Part 04", "Part 02.L", "Part 09")
 
 
 def test_every_level_is_the_hierarchy_s(result):

@@ -167,6 +167,7 @@ def test_candidates_of_a_piece_are_together_below_a_salience(learned, salience, 
     label = np.where((label == 0) & (mesh.face_centroids[:, 2] > 0), 2, label)
     parts, hierarchy, _ = joined(mesh, label, Hierarchy.of(3, [(0, 2)], [salience]), 0.5, learned=learned)
     assert len(parts.candidate) == count
+    assert parts.within == (method.WITHIN if learned else 0.0)
     assert hierarchy.n_loose == 1
     assert (hierarchy.salience[0] == salience) == (count == 2)
 
