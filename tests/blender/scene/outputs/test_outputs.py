@@ -365,6 +365,20 @@ def test_seams_of_ours_that_are_merged_with_other_edges_are_ours(obj, edit, afte
     assert [edge.index for edge in obj.data.edges if edge.use_seam] == [far]
 
 
+@pytest.mark.parametrize("had", [False, True])
+def test_the_layer_of_seams_goes_only_if_there_was_none(obj, had):
+    """Also where no edge is a seam: other programs read from the layer that there are none."""
+    if had:
+        obj.data.edges[0].use_seam = True
+        obj.data.edges[0].use_seam = False
+    before = {attribute.name for attribute in obj.data.attributes}
+    assert ("seam" in "".join(before)) == had
+    bpy.ops.reeb_parts.decompose(seams=True)
+    assert any(edge.use_seam for edge in obj.data.edges)
+    bpy.ops.reeb_parts.clear()
+    assert {attribute.name for attribute in obj.data.attributes} == before
+
+
 @pytest.mark.parametrize("after", ["detail", "decompose", "clear"])
 def test_seams_that_are_marked_by_hand_meanwhile_stay(owned, after):
     """A drag of Detail took them away, and brought those back that had been cleared."""
