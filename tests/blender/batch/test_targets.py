@@ -106,6 +106,11 @@ def test_a_file_named_as_another_kind(run, model, tmp_path, option, name, kind):
     refused(run, tmp_path, [f"{option} {tmp_path / name} must end in {kind}."], model, option, tmp_path / name)
 
 
+def test_a_kind_may_be_in_capitals(run, model, tmp_path):
+    assert run(model, "--save", tmp_path / "A.BLEND", "--threemf", tmp_path / "A.3MF").status == 0
+    assert {"A.BLEND", "A.3MF"} <= set(os.listdir(tmp_path))
+
+
 def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(run, model, tmp_path):
     ended = run(model, "--parts", "/proc/none/parts")
     assert (ended.status, ended.out) == (1, "")
