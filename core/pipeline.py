@@ -124,7 +124,7 @@ def decompose(
             area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
             given, hint = without_copies(given, copies), _of_faces(hint, copies.polygon)
         together = plane is None and parameters.pieces == TOGETHER
-        # A method that is as it was published gets each surface whole.
+        # For a method that is as it was published ground is not cut off from a surface that goes on in it.
         standing = find_standing(given, terrain=parameters.traits.learned) if together else None
 
     def of_another(

@@ -46,13 +46,13 @@ class Divided:
     polygon: np.ndarray
 
     def by_order(self, number: np.ndarray) -> TriMesh:
-        """The mesh with those divided, too, from the last of the corners that are farthest out; larger ones, if convex.
+        """The mesh with those divided, too, from the first of the corners farthest out, and larger ones, if convex.
 
         number : (n,) int64, place of each vertex in an order that the shape decides.
         """
         if not (len(self.tied) or len(self.more)):
             return self.mesh
-        faces, rank = self.mesh.faces.copy(), inverse(np.lexsort((number, self.rank)))
+        faces, rank = self.mesh.faces.copy(), inverse(np.lexsort((-number, self.rank)))
         faces[self.tied] = _halves(self.mesh.vertices, faces[self.tied], rank)[0]
         if len(self.more):
             faces[self.more] = _fans(self.mesh.vertices, faces[self.more], self.polygon, rank)
