@@ -65,7 +65,8 @@ def find_interior(given: PolygonMesh, place: np.ndarray, plane: np.ndarray | Non
             continue
         if plane is None and not _is_body(mesh, place, one, within):
             continue
-        is_interior = np.bincount(given.polygon, ~within, given.n_polygons) == 0
+        others, its = (np.bincount(given.polygon[some], minlength=given.n_polygons) for some in (~within, within))
+        is_interior = (its > 0) & (others == 0)  # a polygon may have no triangle
         return is_interior if is_interior.any() else None
     return None
 
@@ -219,6 +220,8 @@ def _is_body(mesh: TriMesh, place: np.ndarray, plane: np.ndarray, within: np.nda
     if mesh.face_area[body].sum() < MOST_OF_MESH * mesh.area:
         return False
     upper = np.flatnonzero(body & (inner_products(mesh.face_centroids, plane[:3]) > plane[3]) & ~within)
+    if not len(upper):
+        return False
     # Seen from a point of the plane, what closes the half there encloses nothing.
     volume = row_products(mesh.area_normals[upper], mesh.face_centroids[upper] - plane[3] * plane[:3]).sum()
     return not fills_its_box(mesh.vertices[np.unique(mesh.faces[upper])], float(abs(volume)) / 3)

@@ -63,6 +63,13 @@ def test_halves_that_are_closed_have_the_parts_of_open_ones(welded, caps):
     assert np.isfinite(result.field).all()
 
 
+def test_a_polygon_without_a_triangle_is_not_interior():
+    vertices, quads = halves(welded=True, caps=1)
+    triangles = shapes.split_quads(quads)
+    given = PolygonMesh.of(vertices, triangles, np.repeat(np.arange(len(quads)) + 1, 2))
+    assert (find_copies(given).is_copy == np.append(False, is_cap(vertices, quads))).all()
+
+
 @CASES
 @pytest.mark.parametrize("change", [
     lambda v, f: (v, f[:, ::-1]), lambda v, f: (v[f].reshape(-1, 3), np.arange(f.size).reshape(f.shape)),
