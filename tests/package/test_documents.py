@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the pages say of the package and of ``reeb-parts`` runs as it stands there, on small models."""
 
+import json
 import re
 import shlex
 from pathlib import Path
@@ -40,8 +41,10 @@ def test_commands_run(command, folder, reeb_parts_command):
         (folder / "archive").mkdir()
         trimesh.Trimesh(*shapes.tube_tree(step=0.2), process=False).export(folder / "archive" / "cow.obj")
         reeb_parts_command("batch", "archive", "--out", "results", "--workers", 1, cwd=folder)
+    command, _, file = command.partition(" > ")
     done = reeb_parts_command(*shlex.split(command)[1:], cwd=folder)
     assert done.returncode == 0, done.stderr
+    assert not file.endswith(".json") or json.loads(done.stdout)
 
 
 @pytest.mark.parametrize(("page", "code"), EXAMPLES, ids=[f"{name} {n}" for n, (name, _) in enumerate(EXAMPLES)])

@@ -79,7 +79,7 @@ def test_where_a_model_stands_does_not_matter():
 BLOCK = {"body": ((0, 0, 0), (1, 1, 1), 0.8, "")}
 
 
-@pytest.mark.parametrize(("axis", "places"), enumerate([("right", "left"), ("front", "back"), ("bottom", "top")]))
+@pytest.mark.parametrize(("axis", "places"), [(0, ("right", "left")), (1, ("front", "back")), (2, ("bottom", "top"))])
 def test_a_place_is_told_of_what_is_so_far_from_the_middle_of_the_body(axis, places):
     for sign, place in zip((-1, 1), places, strict=True):
         for distance, found in ((0.13, place), (0.11, "")):
