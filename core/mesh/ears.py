@@ -55,7 +55,8 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
 
     A fan from one corner covers a convex polygon once; of a concave one, triangles of it may lie outside, on top of
     others, with their normals the other way. Such polygons are cut by clipping ears, the one of the shortest diagonal
-    first.
+    first; so are concave ones of five corners and more whose fan is not folded: from the first corner that another file
+    has it may be.
 
     Parameters
     ----------
@@ -68,11 +69,11 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
     Returns
     -------
     triangles : (m, 3) int64
-        As many of each polygon, in the same rows. Polygons that are not folded, those that cross themselves so that
+        As many of each polygon, in the same rows. Convex polygons, those that cross themselves so that
         there is no ear, and those of more than MOST_CORNERS keep their fans.
     """
     start = cumsum(sizes - 2) - (sizes - 2)  # first triangle of each polygon
-    folded = _folded(vertices, triangles, sizes)
+    folded = np.union1d(_folded(vertices, triangles, sizes), _concave(vertices, triangles, sizes, start))
     folded = folded[sizes[folded] <= MOST_CORNERS]
     if not len(folded):
         return triangles
@@ -105,6 +106,25 @@ def _folded(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> n
         whole = sums_by(polygon, normal, len(several))  # Newell's normal, as long as twice the area
         against = row_products(normal, whole[polygon]) < -FOLD * row_products(whole, whole)[polygon]
     return several[np.unique(polygon[against])]
+
+
+def _concave(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Polygons of five corners and more that turn both ways, (k,) int64: from another corner they may be folded.
+
+    start : (p,) int64, first triangle of each polygon.
+    """
+    large, found = np.flatnonzero(sizes > 4), [np.empty(0, np.int64)]
+    for size in np.unique(sizes[large]).tolist():
+        chosen = large[sizes[large] == size]
+        rows = start[chosen, None] + arange(size - 2)
+        corner = vertices[np.concatenate([triangles[rows[:, 0], :2], triangles[rows, 2]], axis=1)]
+        with np.errstate(invalid="ignore", over="ignore"):  # a corner at no finite place
+            side = (np.roll(corner, -1, axis=1) - corner).reshape(-1, 3)
+            turn = cross(np.roll(side.reshape(corner.shape), 1, axis=1).reshape(-1, 3), side).reshape(corner.shape)
+            whole = np.cross(corner[:, 1:-1] - corner[:, :1], corner[:, 2:] - corner[:, :1]).sum(axis=1)
+            inwards = (turn * whole[:, None]).sum(axis=2) < -FOLD * (whole * whole).sum(axis=1)[:, None]
+        found.append(chosen[inwards.any(axis=1)])
+    return np.concatenate(found)
 
 
 def _ranks(vertices: np.ndarray, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:

@@ -15,6 +15,8 @@ ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
 KEYHOLE = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)]
 #: An L with corners in the middle of its sides.
 STRAIGHT = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 1)]
+#: From its inner corner a fan covers it once, from others not.
+LETTER_L = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 4), (0, 4)]
 #: A gear of nine teeth.
 GEAR = [(radius * np.cos(at), radius * np.sin(at)) for tooth in range(9)
         for radius, at in zip((1, 1.25, 1.25, 1), 2 * np.pi * (tooth + np.arange(4) / 4) / 9, strict=True)]
@@ -118,6 +120,16 @@ def test_the_shortest_cut_comes_first():
 
 def test_polygons_that_cross_themselves_keep_their_fans():
     assert cut(outline([(0, 0), (3, 3), (3, 0), (0, 1)])).tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+@pytest.mark.parametrize("corners", [LETTER_L, STRAIGHT[:-1], [(0, 0), (4, 0), (4, 3), (2, 2.9), (0, 3.5)]])
+def test_the_first_corner_of_a_concave_polygon_decides_nothing(corners):
+    """Its fan stayed if it happened not to be folded."""
+    n, found = len(corners), set()
+    for first in range(n):
+        number = np.roll(np.arange(n), -first)
+        found.add(frozenset(map(frozenset, number[cut(outline(corners, first))].tolist())))
+    assert len(found) == 1
 
 
 def test_convex_polygons_keep_their_fans_also_when_corners_are_off_by_rounding():
