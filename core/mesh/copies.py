@@ -19,15 +19,16 @@ from ..arrays.int64 import arange, cumsum
 from ..sentence import Sentence
 from .cavities import LEAST, POINTS, find_cavities
 from .interior import find_interior
-from .pieces import Pieces, measured, measured_polygons, nearest_polygons, nearest_vertices
+from .pieces import Pieces, measured, measured_polygons, nearest_polygons, nearest_vertices, pieces_by_place
 from .polygons import MIN_FACES, PolygonMesh, hashed_polygons
 from .skins import MOST_OF_MESH, find_skins
-from .triangles import TriMesh, vertex_components
+from .triangles import TriMesh
 from .walls import find_walls, may_have_walls
 
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
 MOST = 0.9
+TWICE, SKIN, INTERIOR = "twice", "skin", "interior"
 ASIDE = 1e-3  # diagonals of the mesh by which the nearest to an interior face is sought on its own side
 
 
@@ -47,10 +48,9 @@ class Copies:
         For each vertex, the place in ``vertex`` of one where it is; of most their own.
     turned : (p,) bool
         Whether each polygon is the other side of the one of which it is a copy.
-    apart : bool
-        Whether the copies are second skins, which do not lie on their originals.
-    interior : bool
-        Whether the copies are interior faces, which are no copies at all, but have the parts of what is nearest.
+    kind : str
+        What is called a copy here: TWICE, what lies on its original; SKIN, what runs along it; INTERIOR, what lies
+        within the solid and has the part of what is nearest.
     n_rims : int
         Number of edges where copies go on in what they are copies of: borders of what is left, but not of the mesh.
     """
@@ -60,8 +60,7 @@ class Copies:
     vertex: np.ndarray
     home: np.ndarray
     turned: np.ndarray
-    apart: bool = False
-    interior: bool = False
+    kind: str = TWICE
     n_rims: int = 0
 
     @property
@@ -77,10 +76,10 @@ class Copies:
     @property
     def note(self) -> Sentence:
         """What to say of them."""
-        if self.interior:
+        if self.kind == INTERIOR:
             return Sentence("{n} {n:face lies|faces lie} within the solid, in its plane of symmetry, and {n:has|have} "
                             "the parts of what is nearest.", n=self.n_copies)
-        if self.apart:
+        if self.kind == SKIN:
             return Sentence("{n} {n:face runs|faces run} along others as a second skin, such as an outline or an inner "
                             "wall, and {n:has|have} their parts.", n=self.n_copies)
         return Sentence("{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.",
@@ -101,7 +100,7 @@ class Copies:
         twin : (k,) int64, place in ``polygon`` of the image of each; -1 for none. Returns (p,) int64: the image of a
         copy is a copy of the image, if there is one. Interior faces have none.
         """
-        if self.interior:
+        if self.kind == INTERIOR:
             image = np.where(self.is_copy, -1, twin[self.original])
             return np.where(image >= 0, self.polygon[image], -1)
         order = np.lexsort((self.is_copy, self.original))
@@ -167,9 +166,9 @@ def _interior(given: PolygonMesh, is_interior: np.ndarray | None, *, half: bool)
     is_kept[mesh.faces[~is_interior[given.polygon]]] = True
     its, others = np.flatnonzero(is_kept & mesh.used), np.flatnonzero(~is_kept)
     home[others] = its[nearest(search_tree(mesh.vertices[its]), mesh.vertices[others])[1]]
-    found = _apart(original, home)
+    found = _apart(original, home, INTERIOR)
     n_rims = 0 if half else _rims(mesh, ~is_interior[given.polygon])
-    return None if found is None else replace(found, apart=False, interior=True, n_rims=n_rims)
+    return None if found is None else replace(found, n_rims=n_rims)
 
 
 def _inner_sides(given: PolygonMesh, pieces: Pieces) -> Copies | None:
@@ -216,13 +215,13 @@ def _nearest_corners(mesh: TriMesh, face: np.ndarray, other: np.ndarray) -> np.n
     return np.take_along_axis(mesh.faces[other], nearest, axis=1)
 
 
-def _apart(original: np.ndarray, home: np.ndarray) -> Copies | None:
-    """The copies that run along polygons, (p,) int64, and vertices, (n,) int64; None if too few are left."""
+def _apart(original: np.ndarray, home: np.ndarray, kind: str = SKIN) -> Copies | None:
+    """The copies that lie apart from polygons, (p,) int64, and vertices, (n,) int64; None if too few are left."""
     is_kept, vertex = original == arange(len(original)), np.flatnonzero(home == arange(len(home)))
     if is_kept.sum() < MIN_FACES:
         return None
     return Copies(np.flatnonzero(is_kept), (cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home),
-                  np.zeros(len(original), bool), apart=True)
+                  np.zeros(len(original), bool), kind)
 
 
 def _skins(given: PolygonMesh, pieces: Pieces) -> Copies | None:
@@ -293,10 +292,7 @@ def _mostly_copied(given: PolygonMesh, place: np.ndarray, is_copied: np.ndarray)
     is_copied : (p,) bool, whether there are two and more of a polygon. place : (n,) uint64, where each vertex is.
     """
     mesh = given.triangles
-    _, vertex = np.unique(place, return_inverse=True)
-    faces = vertex.reshape(-1)[mesh.faces]
-    count, piece = vertex_components(faces, int(vertex.max()) + 1)
-    of_triangle = piece[faces[:, 0]]
+    count, of_triangle = pieces_by_place(mesh, place)
     copied = np.bincount(of_triangle, mesh.face_area * is_copied[given.polygon], count)
     mostly = copied > MOST * np.bincount(of_triangle, mesh.face_area, count)
     of_polygon = np.zeros(given.n_polygons, bool)

@@ -18,9 +18,9 @@ from ..arrays.indexing import renumbered, sums_by
 from ..arrays.int64 import arange, full
 from ..arrays.pairs import edge_keys
 from ..arrays.vectors import inner_products, row_products, unit, weighted_sum
-from .pieces import fills_its_box
+from .pieces import fills_its_box, pieces_by_place
 from .polygons import PolygonMesh
-from .triangles import TriMesh, vertex_components
+from .triangles import TriMesh
 
 FLAT = 1e-4  # diagonals of the mesh by which corners of faces in a plane are off it, at most
 SAME, FEW = 1e-6, 4  # diagonals within which two vertices there are one; so many are sought around each, with itself
@@ -55,12 +55,13 @@ def find_interior(given: PolygonMesh, place: np.ndarray, plane: np.ndarray | Non
     mesh = given.triangles
     for one in _planes(mesh) if plane is None else [plane]:
         height = inner_products(mesh.vertices, one[:3]) - one[3]
-        lies = (np.abs(height) <= FLAT * mesh.diagonal)[mesh.faces].all(axis=1)
+        near = np.abs(height) <= FLAT * mesh.diagonal
+        lies = near[mesh.faces].all(axis=1)
         if mesh.face_area[lies].sum() < LEAST * mesh.area:
             continue
-        if plane is None and not _is_mirrored(mesh, one, height):
+        if plane is None and not _is_mirrored(mesh, one, height, near):
             continue
-        within = _within(mesh, place, one, lies)
+        within = _within(mesh, one, _Section.of(mesh, _numbers(mesh, place, near), lies))
         if mesh.face_area[within].sum() < LEAST * mesh.area:
             continue
         if plane is None and not _is_body(mesh, place, one, within):
@@ -88,11 +89,14 @@ def _planes(mesh: TriMesh) -> Iterator[np.ndarray]:
         left = left[~its]
 
 
-def _is_mirrored(mesh: TriMesh, plane: np.ndarray, height: np.ndarray) -> bool:
-    """Whether a plane mirrors most vertices beside it onto others; height : (n,) float64, of all above it."""
+def _is_mirrored(mesh: TriMesh, plane: np.ndarray, height: np.ndarray, near: np.ndarray) -> bool:
+    """Whether a plane mirrors most vertices beside it onto others.
+
+    height : (n,) float64, of all vertices above it. near : (n,) bool, which of them are in it.
+    """
     from ..arrays.nearest import nearest, search_tree  # imported here for the reason that arrays.components gives
 
-    beside = mesh.used & (np.abs(height) > FLAT * mesh.diagonal)
+    beside = mesh.used & ~near
     above, below = (np.flatnonzero(beside & some) for some in (height > 0, height < 0))
     if not (len(above) and len(below)) or min(len(above), len(below)) < MIRRORED * max(len(above), len(below)):
         return False
@@ -101,13 +105,11 @@ def _is_mirrored(mesh: TriMesh, plane: np.ndarray, height: np.ndarray) -> bool:
     return bool((distance <= IMAGE * mesh.diagonal).mean() >= MIRRORED)
 
 
-def _within(mesh: TriMesh, place: np.ndarray, plane: np.ndarray, lies: np.ndarray) -> np.ndarray:
-    """Which faces in a plane are within the solid, (m,) bool; place : (n,) uint64. lies : (m,) bool, those in it.
+def _within(mesh: TriMesh, plane: np.ndarray, section: _Section) -> np.ndarray:
+    """Which faces in a plane are within the solid, (m,) bool; section : the triangles in it.
 
     Told patch by patch, by the faces that stand on their sides: those look away from what is within.
     """
-    height = np.abs(inner_products(mesh.vertices, plane[:3]) - plane[3])
-    section = _Section.of(mesh, _numbers(mesh, place, height <= FLAT * mesh.diagonal), lies)
     has_standing = section.n_standing > 0
     count, patch = _patches(section.side, has_standing)
     is_border = (np.bincount(section.side.ravel(), minlength=len(has_standing)) == 1) & ~has_standing
@@ -211,12 +213,8 @@ def _is_body(mesh: TriMesh, place: np.ndarray, plane: np.ndarray, within: np.nda
 
     place : (n,) uint64. plane : (4,) float64, in which they are.
     """
-    _, number = np.unique(place, return_inverse=True)
-    corner = number.reshape(-1)[mesh.faces]
-    count, piece = vertex_components(corner, int(number.max()) + 1)
-    piece = piece[corner[:, 0]]
-    has_some = np.bincount(piece, within, count) > 0
-    body = has_some[piece]
+    count, piece = pieces_by_place(mesh, place)
+    body = (np.bincount(piece, within, count) > 0)[piece]
     if mesh.face_area[body].sum() < MOST_OF_MESH * mesh.area:
         return False
     upper = np.flatnonzero(body & (inner_products(mesh.face_centroids, plane[:3]) > plane[3]) & ~within)

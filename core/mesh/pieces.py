@@ -74,6 +74,17 @@ class Pieces:
         return lengths(np.where(np.isfinite(self.low), self.high, 0.0) - np.where(np.isfinite(self.low), self.low, 0.0))
 
 
+def pieces_by_place(mesh: TriMesh, place: np.ndarray) -> tuple[int, np.ndarray]:
+    """How many pieces there are, and the piece of each triangle, (m,) int64; corners at one place are one.
+
+    place : (n,) of int, equal for vertices at one place.
+    """
+    _, number = np.unique(place, return_inverse=True)
+    corner = number.reshape(-1)[mesh.faces]
+    count, piece = vertex_components(corner, int(number.max()) + 1)
+    return count, piece[corner[:, 0]]
+
+
 def measured(mesh: TriMesh, piece: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Measure pieces; piece : (m,) int64, of each triangle.
 

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core import decompose
-from core.mesh.copies import find_copies
+from core.mesh.copies import INTERIOR, find_copies
 from core.mesh.polygons import PolygonMesh
 
 RNG = np.random.default_rng(5)
@@ -41,7 +41,7 @@ CASES = pytest.mark.parametrize(("welded", "caps"), [(True, 1), (True, 2), (Fals
 def interior(vertices, faces, plane=None):
     """Which polygons are interior; none, if no copies are found or these are others."""
     copies = find_copies(PolygonMesh.of(vertices, faces), plane)
-    return copies.is_copy if copies is not None and copies.interior else np.zeros(len(faces), bool)
+    return copies.is_copy if copies is not None and copies.kind == INTERIOR else np.zeros(len(faces), bool)
 
 
 @CASES
