@@ -42,6 +42,14 @@ def across(direction: np.ndarray) -> np.ndarray:
     return found / np.linalg.norm(found)
 
 
+def across_each(directions: np.ndarray) -> np.ndarray:
+    """A unit vector at a right angle to each direction, (n, 3) float64; 0 for a direction of 0.
+
+    It is across the axis along which the direction reaches least, too. directions : (n, 3) float64.
+    """
+    return unit(cross(directions, np.eye(3)[np.abs(directions).argmin(axis=1)]))
+
+
 def weighted_sum(weights: np.ndarray, values: np.ndarray) -> np.ndarray | float:
     """Sum values, each times its weight, in an order that is the same everywhere.
 

@@ -8,7 +8,7 @@ import numpy as np
 from ..arrays.indexing import expanded, sums_by
 from ..arrays.int64 import arange, cumsum, full
 from ..arrays.ties import TIE, rounded
-from ..arrays.vectors import cross, cross_in_plane, lengths, row_products, unit
+from ..arrays.vectors import across_each, cross, cross_in_plane, lengths, row_products, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6
@@ -69,8 +69,8 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
     Returns
     -------
     triangles : (m, 3) int64
-        As many of each polygon, in the same rows. Convex polygons, those that cross themselves so that
-        there is no ear, and those of more than MOST_CORNERS keep their fans.
+        As many of each polygon, in the same rows. Convex polygons, those that cross themselves so that there is no
+        ear, and those of more than MOST_CORNERS keep their fans.
     """
     start = cumsum(sizes - 2) - (sizes - 2)  # first triangle of each polygon
     folded = np.union1d(_folded(vertices, triangles, sizes), _concave(vertices, triangles, sizes, start))
@@ -79,8 +79,7 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
         return triangles
     triangles = triangles.copy()
     for size in np.unique(sizes[folded]).tolist():
-        rows = start[folded[sizes[folded] == size], None] + arange(size - 2)
-        corners = np.concatenate([triangles[rows[:, 0], :2], triangles[rows, 2]], axis=1)
+        rows, corners = _outlines(triangles, start[folded[sizes[folded] == size]], size)
         # Rounding, too, is to be the same whichever corner a file begins with.
         rank = _ranks(vertices, triangles, corners)
         turn = (rank.argmin(axis=1)[:, None] + arange(size)) % size
@@ -116,8 +115,7 @@ def _concave(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray, sta
     large, found = np.flatnonzero(sizes > 4), [np.empty(0, np.int64)]
     for size in np.unique(sizes[large]).tolist():
         chosen = large[sizes[large] == size]
-        rows = start[chosen, None] + arange(size - 2)
-        corner = vertices[np.concatenate([triangles[rows[:, 0], :2], triangles[rows, 2]], axis=1)]
+        corner = vertices[_outlines(triangles, start[chosen], size)[1]]
         with np.errstate(invalid="ignore", over="ignore"):  # a corner at no finite place
             side = (np.roll(corner, -1, axis=1) - corner).reshape(-1, 3)
             turn = cross(np.roll(side.reshape(corner.shape), 1, axis=1).reshape(-1, 3), side).reshape(corner.shape)
@@ -125,6 +123,15 @@ def _concave(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray, sta
             inwards = (turn * whole[:, None]).sum(axis=2) < -FOLD * (whole * whole).sum(axis=1)[:, None]
         found.append(chosen[inwards.any(axis=1)])
     return np.concatenate(found)
+
+
+def _outlines(triangles: np.ndarray, start: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of the triangles of some fans, (f, size - 2) int64, and the corners of each polygon, (f, size) int64.
+
+    start : (f,) int64, the first row of each. size : how many corners each polygon has.
+    """
+    rows = start[:, None] + arange(size - 2)
+    return rows, np.concatenate([triangles[rows[:, 0], :2], triangles[rows, 2]], axis=1)
 
 
 def _ranks(vertices: np.ndarray, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:
@@ -149,8 +156,7 @@ def _in_plane(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     place = corners - corners[:, :1]
     place = place / np.abs(place).max(axis=(1, 2))[:, None, None]
     normal = cross(place[:, 1:-1].reshape(-1, 3), place[:, 2:].reshape(-1, 3)).reshape(len(place), -1, 3).sum(axis=1)
-    # The axis along which the normal reaches least is across it.
-    across = unit(cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)]))
+    across = across_each(normal)
     axes = np.stack([across, cross(unit(normal), across)], axis=1)
     return place @ axes.transpose(0, 2, 1), lengths(normal) > STRAIGHT
 

@@ -12,7 +12,7 @@ from ..arrays.int64 import arange
 from ..arrays.pairs import distinct_pairs
 from ..cuts.hierarchy import Hierarchy
 from ..mesh.corners import CornerTable
-from ..symmetry.halves import completed_table, open_edges
+from ..symmetry.halves import completed_table, open_sides
 from ..symmetry.plane import MirrorPlane
 from .decomposition import Decomposition
 from .parts import Parts
@@ -73,7 +73,7 @@ def whole_of(parts: Parts, table: CornerTable, area: np.ndarray, plane: np.ndarr
     plane = plane if plane[np.abs(plane[:3]).argmax()] > 0 else -plane
     mirror = MirrorPlane.of(plane)
     both, image = completed_table(table, mirror)
-    meets = _meeting(table, open_edges(table, mirror), image, parts)
+    meets = _meeting(table, open_sides(table, mirror), image, parts)
     size = np.bincount(parts.labels, area, parts.count)
     beside = np.flatnonzero(meets <= _MEETS * np.sqrt(size))
     twin = arange(parts.count + len(beside))
@@ -87,12 +87,10 @@ def whole_of(parts: Parts, table: CornerTable, area: np.ndarray, plane: np.ndarr
     return Whole(both, image, mirror, Parts(found, arange(len(twin))))
 
 
-def _meeting(table: CornerTable, border: np.ndarray, image: np.ndarray, parts: Parts) -> np.ndarray:
-    """Along how much each part meets its image in the plane, (count,); border : (e,) bool, as ``open_edges`` has it."""
-    border = border & (image[table.edges] == table.edges).all(axis=1)
-    beside = image >= len(image)
-    stands = np.bincount(table.corner_face, beside[table.corner_vertex], table.n_faces) > 0
-    there = np.flatnonzero(border[table.corner_edge] & stands[table.corner_face])
+def _meeting(table: CornerTable, is_open: np.ndarray, image: np.ndarray, parts: Parts) -> np.ndarray:
+    """Along how much each part meets its image in the plane, (count,); is_open : (c,) bool, see ``open_sides``."""
+    in_plane = (image[table.edges] == table.edges).all(axis=1)
+    there = np.flatnonzero(is_open & in_plane[table.corner_edge])
     return np.bincount(parts.labels[table.corner_face[there]], table.edge_length(table.corner_edge[there]), parts.count)
 
 

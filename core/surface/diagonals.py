@@ -15,7 +15,7 @@ from ..arrays.indexing import bounds_of_each, inverse, renumbered, stable_order,
 from ..arrays.int64 import arange, cumsum
 from ..arrays.pairs import distinct_pairs
 from ..arrays.ties import ranks
-from ..arrays.vectors import cross, lengths, row_products, unit
+from ..arrays.vectors import across_each, cross, lengths, row_products, unit
 from ..mesh.triangles import TriMesh
 
 STRAIGHT = 1e-6  # in units of the area: a corner that turns less is straight
@@ -161,8 +161,7 @@ def _rounds(vertices: np.ndarray, faces: np.ndarray, number: np.ndarray) -> tupl
     start, middle, end = (vertices[column] for column in faces.T)
     normal = sums_by(number, cross(middle - start, end - start), len(n_corners))
     away = vertices[corner] - (sums_by(owner, vertices[corner], len(n_corners)) / n_corners[:, None])[owner]
-    # The axis along which the normal reaches least is across it.
-    across = unit(cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)]))
+    across = across_each(normal)
     up = cross(unit(normal), across)
     order = np.lexsort((np.arctan2(row_products(away, up[owner]), row_products(away, across[owner])), owner))
     corner, away = corner[order], away[order]

@@ -132,8 +132,8 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     symmetry leaves several frames, that of the whole decides if pieces that touch are one body, and this one may touch
     another; else the order of the given vertices, as it would without the others.
 
-    given : PolygonMesh. together : bool. Returns the same surface, with quadrilaterals ``divided_by_shape``, and where
-    its elements are in the one given.
+    given : PolygonMesh. together : bool. Returns the same surface, its polygons ``Divided``, and where its elements are
+    in the one given.
     """
     divided = None
     if given.n_polygons < given.triangles.n_faces:

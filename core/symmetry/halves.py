@@ -93,7 +93,7 @@ def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable
     image : (n,) int64
         Vertex of the whole that is the mirror image of each; on the plane, itself.
     """
-    border = half.edges[open_edges(half, mirror)]
+    border = half.edges[half.corner_edge[open_sides(half, mirror)]]
     vertices, image = _with_images(half.vertices, half.corner_vertex, border, mirror)
     first = np.searchsorted(half.corner_face, half.corner_face)
     last = np.searchsorted(half.corner_face, half.corner_face, side="right") - 1
@@ -105,16 +105,15 @@ def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable
     return CornerTable(vertices, edges, start, corner_edge, face, 2 * half.n_faces), image
 
 
-def open_edges(half: CornerTable, mirror: MirrorPlane) -> np.ndarray:
-    """Which edges have one face, (e,) bool, those in the plane not counted: they are within the whole.
+def open_sides(half: CornerTable, mirror: MirrorPlane) -> np.ndarray:
+    """Which sides of faces are alone at their edge, (c,) bool, if faces in the plane, within the whole, do not count.
 
-    half : CornerTable. mirror : MirrorPlane.
+    half : CornerTable of c corners, at each of which a side begins. mirror : MirrorPlane.
     """
     off = np.abs(mirror.heights(half.vertices)) > FLAT * box_diagonal(half.vertices[half.corner_vertex])
     beside = np.bincount(half.corner_face, off[half.corner_vertex], half.n_faces) > 0
-    if not beside.any():  # nothing but a figure in the plane
-        return half.n_edge_faces == 1
-    return np.bincount(half.corner_edge, beside[half.corner_face], len(half.edges)) == 1
+    counts = (beside | ~beside.any())[half.corner_face]  # all of them, if there is nothing but a figure in the plane
+    return counts & (np.bincount(half.corner_edge, counts, len(half.edges)) == 1)[half.corner_edge]
 
 
 def _with_images(vertices: np.ndarray, used: np.ndarray, border: np.ndarray,

@@ -255,7 +255,7 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
         for vertex in copy.vertices:  # groups cannot be read in bulk
             for entry in vertex.groups:
                 mass[vertex.index, column[entry.group]] = entry.weight
-    mass = mass[: len(found.on_ground)]
+    mass = mass[: len(found.on_ground)]  # behind these are second corners of slivers, see mesh_arrays.mesh_of
     mass[:, found.ground] = 0.0
     mass[found.on_ground] = 0.0
     own, known = limited(mass), mass.any(axis=1, keepdims=True)

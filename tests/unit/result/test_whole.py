@@ -9,7 +9,7 @@ from core import decompose
 from core.mesh.corners import CornerTable
 from core.mesh.polygons import PolygonMesh
 from core.result.whole import whole_of
-from core.symmetry.halves import completed, completed_table, open_edges
+from core.symmetry.halves import completed, completed_table, open_sides
 from core.symmetry.plane import MirrorPlane
 
 X = np.array([1.0, 0, 0, 0])
@@ -86,7 +86,7 @@ def test_what_closes_a_half_in_the_plane_does_not_part_it_from_its_image():
     assert (image == expected).all()
     beside = np.tile(~inside, 2)[table.corner_face]
     assert (np.bincount(table.corner_edge[beside], minlength=len(table.edges)) == 2).all()
-    assert open_edges(half, mirror).sum() == inside.sum() * 4 == 4
+    assert open_sides(half, mirror).sum() == inside.sum() * 4 == 4
 
 
 def test_whole_models_have_no_contacts_of_the_half():
