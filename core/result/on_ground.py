@@ -46,7 +46,9 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
     plain = found.asked(replace(found.parameters, n_parts=0))
     between = links(working, np.maximum(label - found.n_candidates + 1, 0), n_grounds + 1)
     hierarchy = merged_at_last(Hierarchy.join([found.hierarchy, Hierarchy.of(n_grounds, [], [])]))
-    contacts = np.concatenate([kept[found.contacts], between])
+    # Where a vertex of a ground lies within an edge of another of its faces.
+    seams = working.stitches[(label[working.stitches] >= found.n_candidates).any(axis=1)]
+    contacts = np.concatenate([kept[found.contacts], seams, between])
     # A ground may be linked to another one, and not to what stands there.
     candidates = settle(FaceCandidates(graph, contacts, label, hierarchy))
     tables = tables_of(given, working, candidates)

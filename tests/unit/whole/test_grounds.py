@@ -67,6 +67,19 @@ def test_what_stands_on_a_ground_has_the_parts_that_it_has_alone(floor):
         assert found.parts().share.sum() == pytest.approx(1)
 
 
+def test_halves_of_a_floor_whose_vertices_lie_within_edges_hang_together_by_contacts():
+    """The contacts of a floor's faces were left out: its part did not hang together by edges and contacts."""
+    (coarse, triangles), (fine, others), n = sheet(20, 1), sheet(20, 3), len(tree().faces)
+    shape = shapes.together(tree(), shapes.Shape(coarse - (10, 0, 0), triangles),
+                            shapes.Shape(fine + (10, 0, 0), others))
+    found = decompose(shape.vertices, shape.faces)
+    assert np.flatnonzero(found.parts().ground).tolist() == [found.parts().labels[n]]
+    assert len(set(found.candidates[n:])) == 1
+    across = found.contacts[(found.contacts >= n).all(axis=1)]
+    assert ((across < n + len(triangles)).sum(axis=1) == 1).all()
+    assert len(across) >= 3
+
+
 def test_with_pieces_separate_a_ground_is_a_piece_like_any_other():
     shape = shapes.together(tree(), sheet(40))
     found = decompose(*shape, Parameters(pieces=SEPARATE))
