@@ -19,7 +19,15 @@ from ..arrays.int64 import arange, cumsum
 from ..sentence import Sentence
 from .cavities import LEAST, POINTS, find_cavities
 from .interior import find_interior
-from .pieces import Pieces, measured, measured_polygons, nearest_polygons, nearest_vertices, pieces_by_place
+from .pieces import (
+    Pieces,
+    measured,
+    measured_polygons,
+    nearest_polygons,
+    nearest_vertices,
+    pieces_by_place,
+    solid_polygons,
+)
 from .polygons import MIN_FACES, PolygonMesh, hashed_polygons
 from .skins import MOST_OF_MESH, find_skins
 from .triangles import TriMesh
@@ -158,7 +166,7 @@ def _interior(given: PolygonMesh, is_interior: np.ndarray | None, *, half: bool)
         return None
     mesh, original, home = given.triangles, arange(given.n_polygons), arange(given.triangles.n_vertices)
     _, middle, normal = measured_polygons(given)
-    kept = np.flatnonzero(~is_interior)
+    kept = np.flatnonzero(~is_interior & solid_polygons(given))
     inverted = measured(mesh, np.zeros(mesh.n_faces, np.int64), 1)[2][0] < 0
     start = middle[is_interior] + ASIDE * mesh.diagonal * normal[is_interior] * (1.0 if inverted else -1.0)
     original[is_interior] = kept[nearest(search_tree(middle[kept]), start)[1]]

@@ -30,7 +30,7 @@ class Pieces:
     place : (n,) int64
         Place of each vertex, 0..q-1.
     first : (q,) int64
-        First vertex at each place.
+        First vertex at each place, of those that a polygon has if there are any.
     of_place : (q,) int64
         Piece of each place; one of its own for a vertex of no polygon.
     area, volume : (count,) float64
@@ -54,7 +54,8 @@ class Pieces:
         """The pieces of a mesh; number : (n,) of int, equal for vertices at one place."""
         mesh = given.triangles
         _, first, place = np.unique(number, return_index=True, return_inverse=True)
-        place = place.reshape(-1)
+        place, used = place.reshape(-1), np.flatnonzero(mesh.used)[::-1]
+        first[place[used]] = used  # NumPy keeps the last: the first
         count, of_place = vertex_components(place[mesh.faces], len(first))
         piece = of_place[place[mesh.faces[:, 0]]]
         of_polygon = np.empty(given.n_polygons, np.int64)
@@ -109,6 +110,13 @@ def measured_polygons(given: PolygonMesh) -> tuple[np.ndarray, np.ndarray, np.nd
     return area, middle, unit(sums_by(polygon, mesh.area_normals, count))
 
 
+def solid_polygons(given: PolygonMesh) -> np.ndarray:
+    """Which polygons have an area, but for rounding, (p,) bool: the others have the part of a neighbor."""
+    is_solid = np.zeros(given.n_polygons, bool)
+    is_solid[given.polygon[given.triangles.face_normals.any(axis=1)]] = True
+    return is_solid
+
+
 @dataclass(frozen=True, eq=False)
 class _Frames:
     """Coordinates in which bases lie one beside the other, each with the pieces that have it.
@@ -145,7 +153,7 @@ class _Frames:
 
 
 def nearest_polygons(given: PolygonMesh, pieces: Pieces, base: np.ndarray, n_points: int) -> np.ndarray:
-    """Find the nearest polygons on other pieces, which look the other way.
+    """Find the nearest polygons on other pieces, which look the other way and have an area.
 
     Parameters
     ----------
@@ -165,7 +173,8 @@ def nearest_polygons(given: PolygonMesh, pieces: Pieces, base: np.ndarray, n_poi
     """
     mesh, piece, frames = given.triangles, pieces.of_polygon, _Frames.of(pieces, base)
     _, middle, normal = measured_polygons(given)
-    own, face = np.flatnonzero(frames.is_base[piece]), np.flatnonzero(frames.is_base[piece[given.polygon]])
+    own = np.flatnonzero(frames.is_base[piece] & solid_polygons(given))
+    face = np.flatnonzero(frames.is_base[piece[given.polygon]])
     weight = mesh.face_area[face] / pieces.area[piece[given.polygon[face]]]
     face, position = scattered(mesh, face, weight, min(n_points * len(frames.diameter), MOST_POINTS))
     its = np.concatenate([own, given.polygon[face]])
