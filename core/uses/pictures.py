@@ -86,8 +86,9 @@ def picture(
         On white.
     """
     axes = _tilted(UPRIGHT[up], -1.0) if up else _tilted(_principal_view(mesh))
-    camera = _Camera.of(mesh.corners.reshape(-1, 3), axes, size * fine)
-    place, height = (values.reshape(-1, 3, *values.shape[1:]) for values in camera.pixels(mesh.corners.reshape(-1, 3)))
+    points, corner = mesh.vertices[mesh.used], (cumsum(mesh.used) - 1)[mesh.faces]
+    camera = _Camera.of(points, axes, size * fine)
+    place, height = (values[corner] for values in camera.pixels(points))
     discs = [] if graph is None else _graph_discs(camera, graph)
     light = 0.45 + 0.55 * np.abs(mesh.face_normals @ axes.T @ (LIGHT / np.linalg.norm(LIGHT)))
     shown = np.vstack([color * light[:, None], np.ones((1, 3))])  # the last is the background
@@ -111,33 +112,58 @@ def _nearest_faces(place: np.ndarray, height: np.ndarray, rows: range, size: int
     """
     low, high = np.array([0, rows.start]), np.array([size, rows.stop])
     first = np.ceil(place.min(axis=1)).astype(np.int64).clip(low, high)
-    count = (np.floor(place.max(axis=1)).astype(np.int64) + 1).clip(low, high) - first
-    n_pixels = count.clip(0).prod(axis=1)
+    count = ((np.floor(place.max(axis=1)).astype(np.int64) + 1).clip(low, high) - first).clip(0)
+    (origin, slope), farthest, closest = _planes(place, height), height.min(axis=1), height.max(axis=1)
     seen, nearest = full(len(rows) * size, -1), np.full(len(rows) * size, -np.inf)
-    bounds = np.searchsorted(cumsum(n_pixels), arange(0, n_pixels.sum() + CHUNK, CHUNK))
+    n_pixels = cumsum(count.prod(axis=1))  # of the boxes around the faces: more than these have
+    bounds = np.searchsorted(n_pixels, arange(0, n_pixels[-1] + CHUNK, CHUNK))
     for begin, end in zip(bounds, np.append(bounds[1:], len(place)), strict=True):
-        face, step = expanded(np.zeros(end - begin, np.int64), n_pixels[begin:end])
+        face, row = expanded(first[begin:end, 1], count[begin:end, 1])
         face = face + begin
-        column, row = first[face, 0] + step % count[face, 0], first[face, 1] + step // count[face, 0]
-        weight = _barycentric(place[face], np.stack([column, row], axis=1))
-        depth = (weight * height[face]).sum(axis=1)
+        span, column = expanded(*_spans(place[face], row, size))
+        face, row = face[span], row[span]
+        depth = origin[face] + slope[face, 0] * column + slope[face, 1] * row
+        # Beyond the corners, that of a face that is seen from its edge is out of bounds.
+        depth = np.clip(depth, farthest[face], closest[face])
         pixel = (row - rows.start) * size + column
-        there = (weight >= 0).all(axis=1) & (depth > nearest[pixel])
-        order = np.flatnonzero(there)[np.argsort(depth[there], kind="stable")]
-        # NumPy keeps the last: the nearest.
-        seen[pixel[order]], nearest[pixel[order]] = face[order], depth[order]
+        there = depth > nearest[pixel]
+        pixel, depth, face = pixel[there], depth[there], face[there]
+        np.maximum.at(nearest, pixel, depth)
+        front = depth == nearest[pixel]
+        seen[pixel[front]] = face[front]
     return seen
 
 
-def _barycentric(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates, (k, 3), of points, (k, 2), in triangles, (k, 3, 2); negative in those without area."""
-    (ax, ay), (bx, by), (x, y) = (
-        (vectors[:, 0], vectors[:, 1]) for vectors in
-        (corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]))
+def _planes(place: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Nearness of each face at column and row 0, (m,) float64, and what a column and a row add, (m, 2) float64.
+
+    place : (m, 3, 2) float64. height : (m, 3) float64. Of faces without area, which are not seen, -infinity.
+    """
+    (ax, ay), (bx, by) = (place[:, k].T - place[:, 0].T for k in (1, 2))
+    a, b = height[:, 1] - height[:, 0], height[:, 2] - height[:, 0]
+    double_area = ax * by - ay * bx
     with np.errstate(divide="ignore", invalid="ignore"):
-        second, third = np.stack([x * by - y * bx, ax * y - ay * x]) / (ax * by - ay * bx)
-        weight = np.stack([1 - second - third, second, third], axis=1)
-    return np.where(np.isfinite(weight), weight, -1.0)
+        slope = np.stack([a * by - b * ay, b * ax - a * bx], axis=1) / double_area[:, None]
+        origin = height[:, 0] - (slope * place[:, 0]).sum(axis=1)
+    has_area = np.isfinite(origin)
+    return np.where(has_area, origin, -np.inf), np.where(has_area[:, None], slope, 0.0)
+
+
+def _spans(corners: np.ndarray, row: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Columns of a row of pixels that lie in a triangle: the first of them and how many, (s,) int64.
+
+    corners : (s, 3, 2) float64. row : (s,) int64.
+    """
+    others = np.roll(corners, -1, axis=1)
+    falls = (corners[..., 1] > others[..., 1])[..., None]
+    low, high = np.where(falls, others, corners), np.where(falls, corners, others)  # alike in both faces of an edge
+    rise, above = high[..., 1] - low[..., 1], row[:, None] - low[..., 1]
+    share = np.divide(above, rise, out=np.zeros_like(rise), where=rise > 0)
+    column = low[..., 0] + share * (high[..., 0] - low[..., 0])
+    crossed = (above >= 0) & (row[:, None] <= high[..., 1])
+    first = np.ceil(np.where(crossed, column, np.inf).min(axis=1)).clip(0, size).astype(np.int64)
+    last = np.floor(np.where(crossed, column, -np.inf).max(axis=1)).clip(-1, size - 1).astype(np.int64)
+    return first, (last + 1 - first).clip(0)
 
 
 def _principal_view(mesh: TriMesh) -> np.ndarray:

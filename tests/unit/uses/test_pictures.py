@@ -46,6 +46,22 @@ def test_of_two_balls_the_one_in_front_is_seen_whole(up, chunk, monkeypatch):
     assert set(hue(picture(swapped, color, 60, up)).ravel().tolist()) == {0, 2}
 
 
+@pytest.mark.parametrize("chunk", [300, pictures.CHUNK])
+def test_of_any_triangles_each_pixel_shows_the_nearest_one_that_it_lies_in(chunk, monkeypatch):
+    """By the barycentric coordinates of all pixels in all triangles, some of them slender, some beyond the picture."""
+    monkeypatch.setattr(pictures, "CHUNK", chunk)
+    rng, size, rows = np.random.default_rng(4), 50, range(10, 45)
+    place, height = rng.uniform(-20, 70, (60, 3, 2)), rng.uniform(-9, 9, (60, 3))
+    place[::2, 2] = place[::2, 0] + 0.02 * (place[::2, 2] - place[::2, 1])
+    row, column = np.mgrid[rows.start:rows.stop, :size].reshape(2, -1)
+    corners = np.concatenate([place.transpose(0, 2, 1), np.ones((60, 1, 3))], axis=1)
+    weight = np.linalg.solve(corners, np.stack([column, row, np.ones(len(row))])[None])
+    depth = np.where((weight >= 0).all(axis=1), (weight * height[:, :, None]).sum(axis=1), -np.inf)
+    expected = np.where(np.isfinite(depth.max(axis=0)), depth.argmax(axis=0), -1)
+    np.testing.assert_array_equal(pictures._nearest_faces(place, height, rows, size), expected)
+    assert len(set(expected.tolist())) > 30
+
+
 @pytest.mark.parametrize(("up", "axis"), [("y", 1), ("z", 2)])
 def test_what_is_up_is_up(up, axis):
     mesh = TriMesh(*shapes.icosphere(3))
