@@ -40,6 +40,8 @@ class Layer:
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
 VIEW = (-0.62, -1.0, 0.48)
 BACKGROUND = (0.955, 0.957, 0.962)
+#: Radii of the graph's tubes and balls, as shares of the extent of the model.
+TUBE_RADIUS, BALL_RADIUS = 0.0042, 0.0115
 #: From back to front. A soft shadow needs few pixels, and is by far the dearest to render.
 LAYERS = (
     Layer(("floor", "model"), "floor", coarseness=4, opacity=0.6),
@@ -144,25 +146,37 @@ def _add_graph(graph: bpy.types.Collection, moved: Matrix, extent: float, collec
     arcs = _material("arcs", made, color=ARC_COLOR)
     for source in graph.all_objects:
         if source.type == "CURVE":
-            curve = source.data.copy()
-            curve.transform(moved @ placing.world_matrix(source))  # or the tubes would be as thick as it is scaled
-            curve.bevel_depth, curve.bevel_resolution, curve.use_fill_caps = 0.0042 * extent, 3, True
-            for spline in curve.splines:
-                spline.points.foreach_set("radius", np.ones(len(spline.points), np.float32))
-            curve.materials.clear()
-            curve.materials.append(arcs)
-            _place(curve, "arcs", collection, made)
+            tubes = _tubes(source.data, moved @ placing.world_matrix(source), TUBE_RADIUS * extent, arcs)
+            _place(tubes, "arcs", collection, made)
     materials = {kind: _material(kind, made, color=color) for kind, color in NODE_COLORS.items()}
     for source in graph.all_objects:
         if source.type == "EMPTY" and source.get("kind") in materials:
-            ball = bpy.data.meshes.new("node")
-            with freed(bmesh.new()) as bm:
-                bmesh.ops.create_icosphere(bm, subdivisions=3, radius=0.0115 * extent)
-                for face in bm.faces:
-                    face.smooth = True
-                bm.to_mesh(ball)
-            ball.materials.append(materials[source["kind"]])
+            ball = _ball(BALL_RADIUS * extent, materials[source["kind"]])
             _place(ball, "node", collection, made, Matrix.Translation(moved @ placing.world_matrix(source).translation))
+
+
+def _tubes(arcs: bpy.types.Curve, matrix: Matrix, radius: float, material: bpy.types.Material) -> bpy.types.Curve:
+    """A copy of the curve of the arcs as tubes of one radius, in the unit of the scene."""
+    curve = arcs.copy()
+    curve.transform(matrix)  # or the tubes would be as thick as the object is scaled
+    curve.bevel_depth, curve.bevel_resolution, curve.use_fill_caps = radius, 3, True
+    for spline in curve.splines:
+        spline.points.foreach_set("radius", np.ones(len(spline.points), np.float32))
+    curve.materials.clear()
+    curve.materials.append(material)
+    return curve
+
+
+def _ball(radius: float, material: bpy.types.Material) -> bpy.types.Mesh:
+    """A smooth ball about the origin."""
+    ball = bpy.data.meshes.new("node")
+    with freed(bmesh.new()) as bm:
+        bmesh.ops.create_icosphere(bm, subdivisions=3, radius=radius)
+        for face in bm.faces:
+            face.smooth = True
+        bm.to_mesh(ball)
+    ball.materials.append(material)
+    return ball
 
 
 def _material(name: str, made: list[bpy.types.ID], *, attribute: str | None = None,

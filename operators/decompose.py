@@ -35,6 +35,8 @@ from ..viewport import shading
 
 #: How far all is when a large mesh has been read.
 READ = 0.05
+# How much of reading the shapes take; the rest is for the core to be loaded.
+SHAPES = 0.8
 
 
 class REEB_PARTS_OT_decompose(
@@ -130,12 +132,12 @@ class REEB_PARTS_OT_decompose(
         for index, (obj, name) in enumerate(zip(objects, names, strict=True)):
             steps = bridge.reading_shape(obj, self.hints)
             try:
-                shape = yield from stretched(steps, 0.8 * index / len(objects), 0.8 * (index + 1) / len(objects))
+                shape = yield from stretched(steps, SHAPES * index / len(objects), SHAPES * (index + 1) / len(objects))
             except ReferenceError as error:  # removed by a script meanwhile, or by undo in another window
                 raise SceneError(rpt_("{name} was changed while its parts were computed. Decompose it again.").format(
                     name=name)) from error
             shapes.append((name, shape))
-        yield 0.8
+        yield SHAPES
         load_core()
         return parameters, shapes
 

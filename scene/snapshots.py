@@ -22,6 +22,7 @@ def values_of(group: bpy.types.PropertyGroup) -> dict[str, Any]:
 
 
 def _value(group: bpy.types.PropertyGroup, prop: bpy.types.Property) -> Any:
+    """The value of one property: a list of dicts of a collection, a tuple of an array."""
     value = getattr(group, prop.identifier)
     if prop.type == "COLLECTION":
         return [values_of(item) for item in value]
@@ -35,19 +36,24 @@ def set_values(group: bpy.types.PropertyGroup, values: dict[str, Any]) -> None:
 
 
 def _set_once(group: bpy.types.PropertyGroup, values: dict[str, Any]) -> None:
+    """Set what differs or is not set, and unset what is not among the values."""
     for prop in group.bl_rna.properties:
         name = prop.identifier
         if name not in values:
             if not prop.is_readonly and group.is_property_set(name):
                 group.property_unset(name)
         elif prop.type == "COLLECTION":
-            items = getattr(group, name)
-            if [values_of(item) for item in items] != values[name]:
-                items.clear()
-                for entry in values[name]:
-                    set_values(items.add(), entry)
+            _set_items(getattr(group, name), values[name])
         elif not group.is_property_set(name) or _value(group, prop) != values[name]:
             setattr(group, name, values[name])
+
+
+def _set_items(items: bpy.types.bpy_prop_collection, values: list[dict[str, Any]]) -> None:
+    """Make the items of a collection anew, where they differ."""
+    if [values_of(item) for item in items] != values:
+        items.clear()
+        for entry in values:
+            set_values(items.add(), entry)
 
 
 class MeshCopy:

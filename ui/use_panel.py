@@ -147,17 +147,7 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
         if found is not None and found.sound:
             room.wrapped(column, iface_("Closed, crosses nothing"), "CHECKMARK")
         elif found is not None:
-            for kind, count, words in (
-                ("OPEN", found.open_edges, iface_("{n} open {n:edge|edges}")),
-                ("BRANCHING", found.branching_edges, iface_("{n} {n:edge|edges} of three faces")),
-                ("CONTRARY", found.contrary_edges, iface_("Faces look both ways at {n} {n:edge|edges}")),
-                ("CROSSING", found.crossing_faces, iface_("{n} {n:face crosses|faces cross} others")),
-            ):
-                if count:
-                    told = words.format(n=Count(count))
-                    room.operator(column, "reeb_parts.select_faults", text=told, icon="ERROR").kind = kind
-            if found.inside_out:
-                column.label(text=iface_("Inside out"), icon="ERROR")
+            self._draw_faults(room, column, found)
         if found is not None and found.thinnest is not None:
             words = iface_("Thinnest place: {width}").format(width=length_words(found.thinnest))
             room.operator(column, "reeb_parts.select_faults", text=words, icon="DRIVER_DISTANCE").kind = "THIN"
@@ -165,6 +155,20 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
         row.operator("reeb_parts.check_pieces", text="Check")
         if found is not None and not found.sound:
             row.operator("reeb_parts.repair_piece", text="Repair")
+
+    def _draw_faults(self, room: Room, column: bpy.types.UILayout, found: piece_checks.Check) -> None:
+        """A line for each kind of fault that there is."""
+        for kind, count, words in (
+            ("OPEN", found.open_edges, iface_("{n} open {n:edge|edges}")),
+            ("BRANCHING", found.branching_edges, iface_("{n} {n:edge|edges} of three faces")),
+            ("CONTRARY", found.contrary_edges, iface_("Faces look both ways at {n} {n:edge|edges}")),
+            ("CROSSING", found.crossing_faces, iface_("{n} {n:face crosses|faces cross} others")),
+        ):
+            if count:
+                told = words.format(n=Count(count))
+                room.operator(column, "reeb_parts.select_faults", text=told, icon="ERROR").kind = kind
+        if found.inside_out:
+            column.label(text=iface_("Inside out"), icon="ERROR")
 
 
 CLASSES = (REEB_PARTS_UL_cuts, REEB_PARTS_PT_use, REEB_PARTS_PT_piece)

@@ -165,7 +165,7 @@ def _look_into(pattern: str, unread: Callable[[OSError], object] | None) -> None
 
 
 def _paths(place: str, kinds: tuple[str, ...], unread: Callable[[OSError], object] | None) -> Iterator[Path]:
-    """Absolute paths of the models of one place."""
+    """Absolute paths of the models of one place: a folder, a file or a pattern. Raises SourceError."""
     path = Path(place)
     try:
         kind = kind_of(path)
@@ -173,23 +173,33 @@ def _paths(place: str, kinds: tuple[str, ...], unread: Callable[[OSError], objec
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path,
                                    reason=error.strerror or error)) from error
     if stat.S_ISDIR(kind):
-        for base, folders, files in os.walk(path, onerror=unread):
-            if _is_of_a_run(base):
-                folders.clear()
-                continue
-            folders[:] = [name for name in folders if not name.startswith(".")]
-            for name in files:
-                if os.path.splitext(name)[1].lower() in kinds and not name.startswith("."):
-                    yield Path(os.path.abspath(os.path.join(base, name)))
+        yield from _in_folder(path, kinds, unread)
     elif stat.S_ISREG(kind):
         yield Path(os.path.abspath(path))
     elif glob.has_magic(place):
-        _look_into(os.path.join(place, "*") if place.endswith("**") else place, unread)
-        for found in glob.iglob(place, recursive=True):
-            if os.path.isfile(found) and not any(map(_is_of_a_run, Path(os.path.abspath(found)).parents)):
-                yield Path(os.path.abspath(found))
+        yield from _of_pattern(place, unread)
     else:
         raise SourceError(Sentence("There is no file and no folder {place}.", place=place))
+
+
+def _in_folder(path: Path, kinds: tuple[str, ...], unread: Callable[[OSError], object] | None) -> Iterator[Path]:
+    """Absolute paths of the models in a folder and those in it, without what is hidden or was made by a run."""
+    for base, folders, files in os.walk(path, onerror=unread):
+        if _is_of_a_run(base):
+            folders.clear()
+            continue
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        for name in files:
+            if os.path.splitext(name)[1].lower() in kinds and not name.startswith("."):
+                yield Path(os.path.abspath(os.path.join(base, name)))
+
+
+def _of_pattern(pattern: str, unread: Callable[[OSError], object] | None) -> Iterator[Path]:
+    """Absolute paths of the files of a pattern, of any kind, without what was made by a run."""
+    _look_into(os.path.join(pattern, "*") if pattern.endswith("**") else pattern, unread)
+    for found in glob.iglob(pattern, recursive=True):
+        if os.path.isfile(found) and not any(map(_is_of_a_run, Path(os.path.abspath(found)).parents)):
+            yield Path(os.path.abspath(found))
 
 
 @cache

@@ -220,11 +220,16 @@ class _Batch:
                         self.kept += 1
                     elif answer["status"] != DONE:
                         failed[answer["status"]] += 1
-                        self.failed[job["name"]] = answer["status"], answer["reason"]
                         progress.set_postfix(failed, refresh=False)
-                        tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}",
-                                   file=sys.stderr)
+                        self._note_failure(job["name"], answer["status"], answer["reason"])
                     progress.update()
+
+    def _note_failure(self, name: str, status: str, reason: str) -> None:
+        """Keep what became of a model for the answer, and say it above the bar of progress."""
+        from tqdm import tqdm
+
+        self.failed[name] = status, reason
+        tqdm.write(f"reeb-parts: {name}: {status}: {reason}", file=sys.stderr)
 
     @property
     def workers(self) -> int:

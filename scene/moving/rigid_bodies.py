@@ -28,6 +28,8 @@ KINDS = ("HINGE", "POINT", "FIXED")
 _ITERATIONS = 50
 # Masses are as volumes, 1 kg on average, but within these: joints between much different ones are weak.
 _LIGHTEST, _HEAVIEST = 0.1, 10.0
+# How large joints are drawn: as a share of the diagonal of what is joined, those that hold nothing beside the others.
+_DRAWN, _DRAWN_SMALLER = 0.05, 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +74,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     hulls = [hull for (hull,) in part_hulls(table, labels)]
     found, overlaps = body_joints(table, labels, ground), overlapping(hulls)
     bodies = [pieces.get(number, []) for number in numbered.numbers.tolist()]
-    site = _Site(_world(context), collection, 0.05 * table.within(~ground[labels]).diagonal)
+    site = _Site(_world(context), collection, _DRAWN * table.within(~ground[labels]).diagonal)
     _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]), ground)
     wanted = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
     holding_nothing = _joints_that_hold_nothing(site, bodies, overlaps[~ground[overlaps].any(axis=1)],
@@ -145,7 +147,7 @@ def _joints_that_hold_nothing(site: _Site, bodies: _Bodies, overlaps: np.ndarray
     overlaps, pairs : (k, 2) and (j, 2) int64, parts whose hulls overlap, and those that have joints.
     """
     held = {tuple(pair) for pair in pairs.tolist()}
-    return [_Wanted("GENERIC", (one, other), _frame(one), 0.2 * site.size)
+    return [_Wanted("GENERIC", (one, other), _frame(one), _DRAWN_SMALLER * site.size)
             for a, b in overlaps.tolist() if (a, b) not in held for one in bodies[a] for other in bodies[b]]
 
 

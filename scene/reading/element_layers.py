@@ -128,17 +128,23 @@ def _set_layers(mesh: bpy.types.Mesh, elements: Elements, groups: Sequence[str] 
         for name, layer in new.items():
             mesh.attributes.new(name, layer.kind, layer.domain)
     for name, layer in elements.layers.items():
-        values = layer.values
-        if layer.kind == KEY:
-            mesh_arrays.set_key_points(mesh.shape_keys.key_blocks[int(name.rsplit(" ", 1)[1])], values)
-        elif layer.kind == SKIN:
-            mesh.skin_vertices[0].data.foreach_set(name.rsplit(" ", 1)[1], values.ravel())
-        elif layer.kind == FREESTYLE:
-            getattr(mesh, _ITEMS[layer.domain]).foreach_set("use_freestyle_mark", values)
-        elif layer.kind == WEIGHTS:
-            _set_weights(mesh, values, groups)
+        if layer.kind == WEIGHTS:
+            _set_weights(mesh, layer.values, groups)
         else:
-            mesh_arrays.set_attribute_values(mesh.attributes[name], values)
+            _set_values(mesh, name, layer)
+
+
+def _set_values(mesh: bpy.types.Mesh, name: str, layer: Layer) -> None:
+    """Write the values of a layer that is there, of any kind but weights."""
+    of_kind = name.rsplit(" ", 1)[-1]  # the number of a shape key, the name of what skin has
+    if layer.kind == KEY:
+        mesh_arrays.set_key_points(mesh.shape_keys.key_blocks[int(of_kind)], layer.values)
+    elif layer.kind == SKIN:
+        mesh.skin_vertices[0].data.foreach_set(of_kind, layer.values.ravel())
+    elif layer.kind == FREESTYLE:
+        getattr(mesh, _ITEMS[layer.domain]).foreach_set("use_freestyle_mark", layer.values)
+    else:
+        mesh_arrays.set_attribute_values(mesh.attributes[name], layer.values)
 
 
 def _weights(mesh: bpy.types.Mesh, n_groups: int | None) -> Ragged | None:

@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from .body_surface import BodySurface
     from .discs import Discs
 
+# The body around places is that in their bounding box, wider by such a share of its diagonal.
+_WIDER = 0.1
+# More faults than caps can have.
+_ENDLESS = 1 << 30
 # A way that is nearer to the surface than such a share of the distance from its ends is bent; so often it is pushed
 # off, to such a share.
 _NEAR, _ROUNDS, _AWAY = 0.1, 10, 0.3
@@ -164,7 +168,7 @@ class _Network:
 
 def _best(network: _Network, mean: np.ndarray, step: float) -> list[np.ndarray]:
     """Of several middles with ways to them the first whose caps cross nothing, else the one whose caps do so least."""
-    tried, hopeless = [], 1 << 30
+    tried, hopeless = [], _ENDLESS
     for ways in _choices(network, mean, step):
         faults = network.faults(ways, PLAIN, hopeless)
         if not faults:
@@ -174,7 +178,7 @@ def _best(network: _Network, mean: np.ndarray, step: float) -> list[np.ndarray]:
         if len(tried) >= _FIRST and len(tried) * len(network.stretches) >= _CAPS:
             break
     # No plain caps will do: of the middles, those first whose caps cross least.
-    best, least = tried[0][2], 1 << 30
+    best, least = tried[0][2], _ENDLESS
     for known, _, ways in sorted(tried, key=itemgetter(0, 1)):
         if known >= hopeless:
             break
@@ -210,14 +214,14 @@ def _several_middles(network: _Network) -> list[np.ndarray] | None:
     def faults(effort: int, tried: np.ndarray, most: int) -> int:
         return network.faults_if_closed([tried[here] for here in through], effort, most)
 
-    middles, least = np.array([own[0] for own in options]), 1 << 30
+    middles, least = np.array([own[0] for own in options]), _ENDLESS
     for effort in (PLAIN, PLAIN, LED_IN):
-        least = 1 << 30 if effort == LED_IN else least
+        least = _ENDLESS if effort == LED_IN else least
         for index, own in enumerate(options):
             middles, least = _with_best(middles, index, own, partial(faults, effort), least)
         if not least:
             break
-    return [middles[here] for here in through] if least < 1 << 30 else None
+    return [middles[here] for here in through] if least < _ENDLESS else None
 
 
 def _with_best(middles: np.ndarray, index: int, options: list[np.ndarray], faults: Callable[[np.ndarray, int], int],
@@ -239,7 +243,7 @@ def _with_best(middles: np.ndarray, index: int, options: list[np.ndarray], fault
 def _places(starts: np.ndarray, discs: Discs) -> list[np.ndarray]:
     """Places for the middle of some places on the surface, (k, 3), the mean of which is the first."""
     mean = starts.mean(axis=0)
-    body = discs.around(starts, np.append(starts, mean[None], axis=0), 0.1)
+    body = discs.around(starts, np.append(starts, mean[None], axis=0), _WIDER)
     if body is None or (body.own < 0).any():
         return [mean]
     return _middles(starts, mean, body, discs.side(mean[None], body))[:_OPTIONS]
@@ -259,7 +263,7 @@ def _choices(network: _Network, mean: np.ndarray, step: float) -> Iterator[list[
     yield [mean[None]] * len(places)
     stretches = network.stretches
     curve = np.concatenate([network.points[stretch] for stretch in stretches]) if stretches else places
-    body = discs.around(places, np.append(curve, mean[None], axis=0), 0.1)
+    body = discs.around(places, np.append(curve, mean[None], axis=0), _WIDER)
     if body is None or not step > 0 or (body.own < 0).any():
         return
     share = (arange(1, _TRIED) / _TRIED)[:, None, None]
