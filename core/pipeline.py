@@ -121,7 +121,7 @@ def decompose(
         if plane is not None:
             plane = plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent])
         if copies := find_copies(given, plane):
-            area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
+            with_all = given
             given, hint = without_copies(given, copies), _of_faces(hint, copies.polygon)
         together = plane is None and parameters.pieces == TOGETHER
         # For a method that is as it was published ground is not cut off from a surface that goes on in it.
@@ -148,7 +148,7 @@ def decompose(
     else:
         whole = completed(given, plane)
         result = of_half(of_another(whole.vertices, whole.triangles, whole.polygon, np.tile(hint, 2)), given)
-    return result.with_copies(copies, area) if copies else result
+    return result.with_copies(copies, with_all) if copies else result
 
 
 def _of_faces(hint: np.ndarray, faces: np.ndarray) -> np.ndarray:

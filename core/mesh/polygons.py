@@ -16,6 +16,7 @@ from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
 from .ears import fans, without_folds
+from .labels import majority
 from .triangles import TriMesh, check_corners
 
 if TYPE_CHECKING:
@@ -102,6 +103,15 @@ class PolygonMesh:
         mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
         mesh._check_size()
         return mesh
+
+    def vertex_labels(self, label: np.ndarray) -> np.ndarray:
+        """Label of each vertex, (n,) int64: that of most of the area of its polygons; -1 for a vertex of none.
+
+        label : (p,) int64, 0 or more.
+        """
+        mesh = self.triangles
+        return majority(mesh.faces.ravel(), np.repeat(label[self.polygon], 3), np.repeat(mesh.face_weight, 3),
+                        mesh.n_vertices)
 
     def submesh(self, polygon: np.ndarray, vertex: np.ndarray, home: np.ndarray) -> PolygonMesh:
         """Some of the polygons, on some of the vertices.

@@ -151,10 +151,7 @@ def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidat
     mesh = working.mesh
     sides = FaceSides(np.repeat(working.polygon, 3), mesh.edges.face_edges.ravel(), mesh.edge_length)
     pairs, length = boundaries(graph, label, sides)
-    corners = given.triangles.faces.ravel()
-    weight = np.repeat(given.triangles.face_weight, 3)
-    vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
-    return CandidateTables(label, vertex, np.bincount(label, graph.area), pairs, length,
+    return CandidateTables(label, given.vertex_labels(label), np.bincount(label, graph.area), pairs, length,
                            *junctions(label, sides))
 
 

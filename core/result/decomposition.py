@@ -22,6 +22,7 @@ from ..mesh.borders import border_note
 from ..mesh.copies import Copies
 from ..mesh.face_graph import FaceGraph
 from ..mesh.labels import majority
+from ..mesh.polygons import PolygonMesh
 from ..parameters import Parameters
 from ..sentence import Sentence
 from ..surface.ordering import Ordering
@@ -323,14 +324,14 @@ class Decomposition:
                        field=self.field[vertex], contacts=ordering.polygon[self.contacts],
                        links=ordering.polygon[self.links], face_twin=twin, face_side=side)
 
-    def with_copies(self, copies: Copies, area: np.ndarray) -> Decomposition:
+    def with_copies(self, copies: Copies, given: PolygonMesh) -> Decomposition:
         """Copy the result of a mesh without its copies of faces as that of the whole mesh.
 
         Parameters
         ----------
         copies : Copies
-        area : (p,) float64
-            Area of each face, those of copies included, in squared units of the vertices.
+        given : PolygonMesh
+            The whole mesh: p faces.
 
         Returns
         -------
@@ -340,10 +341,14 @@ class Decomposition:
         face, kept = copies.original, copies.polygon
         label = self.candidates[face]
         lies = np.flatnonzero(copies.is_copy)
+        area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
+        # Where several faces meet, the home of a vertex may be of others than the originals of its own.
+        vertex = given.vertex_labels(label)
+        vertex[copies.vertex] = self.vertex_candidates
         has_twins = len(self.face_twin) > 0
         return replace(
             self, candidates=label, candidate_area=np.bincount(label, area, self.n_candidates),
-            vertex_candidates=self.vertex_candidates[copies.home], field=self.field[copies.home],
+            vertex_candidates=vertex, field=self.field[copies.home],
             contacts=np.concatenate([kept[self.contacts], np.stack([kept[face[lies]], lies], axis=1)]),
             links=kept[self.links], face_twin=copies.images(self.face_twin) if has_twins else self.face_twin,
             face_side=self.face_side[face] if has_twins else self.face_side,

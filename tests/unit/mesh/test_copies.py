@@ -172,3 +172,10 @@ def test_a_polygon_that_also_comes_elsewhere_is_no_copy():
     assert ((result.field >= 0) & (result.field <= 1)).all()
     assert (result.vertex_candidates >= 0).all()
     assert result.notes[-1].startswith("7 faces lie on another one")
+
+
+def test_a_vertex_of_a_copy_has_the_candidate_of_its_own_face():
+    """Where every face has vertices of its own, those of copies had the candidates of others that meet there."""
+    shape = shapes.tube_tree(2, 0.4)
+    result = decompose(*shapes.unjoined(shapes.together(shape, shapes.inside_out(shape))))
+    np.testing.assert_array_equal(result.vertex_candidates, np.repeat(result.candidates, 3))
