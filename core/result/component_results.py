@@ -82,7 +82,8 @@ class Findings:
     def contacts(self) -> np.ndarray:
         """(k, 2) int64, faces of the caller that touch though they share no edge: in one body."""
         within = (r.component.polygon[r.contacts] for r in self.results)
-        return np.concatenate([self.working.stitches, self.bodies.contacts, *within])
+        found = np.concatenate([self.working.stitches, self.bodies.contacts, *within])
+        return found[found[:, 0] != found[:, 1]]  # fine parts of one large face may be joined
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays.indexing import renumbered
 from ..arrays.int64 import full
+from ..arrays.pairs import are_among
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
@@ -46,9 +47,10 @@ def with_grounds(found: Decomposition, given: PolygonMesh, standing: Standing) -
     plain = found.asked(replace(found.parameters, n_parts=0))
     between = links(working, np.maximum(label - found.n_candidates + 1, 0), n_grounds + 1)
     hierarchy = merged_at_last(Hierarchy.join([found.hierarchy, Hierarchy.of(n_grounds, [], [])]))
-    # Where a vertex of a ground lies within an edge of another of its faces.
-    seams = working.stitches[(label[working.stitches] >= found.n_candidates).any(axis=1)]
-    contacts = np.concatenate([kept[found.contacts], seams, between])
+    known = kept[found.contacts]
+    # Of grounds, and of what stands there: a gap that is wide for it alone may be narrow beside its ground.
+    seams = working.stitches[~are_among(working.stitches, np.sort(known, axis=1))]
+    contacts = np.concatenate([known, seams, between])
     # A ground may be linked to another one, and not to what stands there.
     candidates = settle(FaceCandidates(graph, contacts, label, hierarchy))
     tables = tables_of(given, working, candidates)

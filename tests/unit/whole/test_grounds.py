@@ -80,6 +80,18 @@ def test_halves_of_a_floor_whose_vertices_lie_within_edges_hang_together_by_cont
     assert len(across) >= 3
 
 
+def test_what_meets_across_a_gap_that_is_narrow_beside_its_floor_is_in_contact():
+    """Contacts were those of the shape alone, for which the gap was wide, though the result had cuts across it."""
+    lower = shapes.cylinder(2, 4, capped=False)
+    upper, n = shapes.moved(shapes.subdivide(lower), (0, 0, 4.01)), len(lower.faces)
+    rim = np.flatnonzero((upper.vertices[upper.faces][:, :, 2] == 4.01).sum(axis=1) == 2)
+    contacts = decompose(*shapes.together(lower, upper, sheet(150))).contacts
+    across = contacts[((contacts < n).sum(axis=1) == 1) & (contacts < n + len(upper.faces)).all(axis=1)]
+    assert len(rim) == 8
+    assert np.isin(n + rim, across).all()
+    assert (contacts[:, 0] != contacts[:, 1]).all()
+
+
 def test_with_pieces_separate_a_ground_is_a_piece_like_any_other():
     shape = shapes.together(tree(), sheet(40))
     found = decompose(*shape, Parameters(pieces=SEPARATE))
