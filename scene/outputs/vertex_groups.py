@@ -151,15 +151,10 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
 
 
 def remove_one(obj: bpy.types.Object, name: str) -> None:
-    """Remove a group, if it is there; the active one stays active."""
+    """Remove a group, if it is there; Blender keeps another one that is active."""
     group = obj.vertex_groups.get(name) if name else None
-    if group is None:
-        return
-    active = obj.vertex_groups.active
-    kept = active.name if active else ""
-    obj.vertex_groups.remove(group)
-    if kept in obj.vertex_groups:
-        obj.vertex_groups.active_index = obj.vertex_groups[kept].index
+    if group is not None:
+        obj.vertex_groups.remove(group)
 
 
 def remove(obj: bpy.types.Object) -> None:

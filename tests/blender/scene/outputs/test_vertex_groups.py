@@ -36,8 +36,8 @@ def test_weights_by_hand_stay_where_another_group_was_deleted(obj):
     bpy.ops.reeb_parts.decompose(n_parts=3)
     result = obj.data.reeb_parts
     numbers = np.array([item.value for item in obj.data.attributes["reeb_part"].data])
-    inner = {part.number: next(v for v in range(len(obj.data.vertices)) if [g.group for g in obj.data.vertices[v].groups]
-                               == [obj.vertex_groups[part.group].index]) for part in result.parts}
+    own = {tuple(entry.group for entry in vertex.groups): vertex.index for vertex in obj.data.vertices}
+    inner = {part.number: own[obj.vertex_groups[part.group].index,] for part in result.parts}
     for part in result.parts:
         obj.vertex_groups[part.group].add([inner[part.number]], 0.5, "REPLACE")
     deleted = result.parts[0].number
