@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What Blender has written is complete, and no beginning of it is, nor one with a hole or a tail."""
 
+import re
 from importlib import import_module
 from pathlib import Path
 
@@ -91,6 +92,20 @@ def test_materials_that_are_cut_off(complete, obj, tmp_path):
         assert not complete.model([obj.data], "obj")(tmp_path / "it.obj")
     library.write_bytes(whole)
     assert complete.model([obj.data], "obj")(tmp_path / "it.obj")
+
+
+@pytest.mark.parametrize("hole", [rb"^vt .*\n", rb"^vn .*\n", rb" [\d/]+(?=\nf )"], ids=["vt", "vn", "corner"])
+def test_an_obj_that_lacks_a_line_or_a_corner_is_not_complete(complete, obj, tmp_path, hole):
+    """Though it has all vertices and faces, and ends as it should."""
+    coloured(obj)
+    activate(obj)
+    path = tmp_path / "it.obj"
+    write(obj, path, "obj")
+    whole = path.read_bytes()
+    assert complete.model([obj.data], "obj")(path)
+    path.write_bytes(re.sub(hole, b"", whole, count=1, flags=re.MULTILINE))
+    assert path.read_bytes() != whole
+    assert not complete.model([obj.data], "obj")(path)
 
 
 @pytest.mark.parametrize("way", ["folder", "alone"])
