@@ -134,38 +134,92 @@ def _numbers(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _one_color_each(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
-    """Whether there are faces of parts, and all corners of those of one number have one color. numbers : (p,) int32."""
+    """Whether there are faces of parts, and corners of one number have one color in each object that Join has brought.
+
+    numbers : (p,) int32.
+    """
     known = (numbers > 0) & (numbers <= part_names.MAX_NUMBER)
-    if not known.any():
-        return False
+    return bool(known.any()) and _same_colors(mesh, np.where(known, numbers, 0), _blocks(mesh))
+
+
+def _same_colors(mesh: bpy.types.Mesh, numbers: np.ndarray, block: np.ndarray) -> bool:
+    """Whether all corners of faces of one number and block have one color. Both (p,) int; number 0 is no part."""
     _, face = mesh_arrays.face_corners(mesh)
-    number = numbers[face][known[face]]
-    shade = mesh_arrays.read(mesh.attributes[colors.NAME].data, "color_srgb", np.float32, 4)[known[face]]
-    _, first, place = np.unique(number, return_index=True, return_inverse=True)
+    corner = numbers[face] > 0
+    cell = (block.astype(np.int64) * (part_names.MAX_NUMBER + 1) + numbers)[face][corner]
+    shade = mesh_arrays.read(mesh.attributes[colors.NAME].data, "color_srgb", np.float32, 4)[corner]
+    _, first, place = np.unique(cell, return_index=True, return_inverse=True)
     return bool((shade == shade[first][place]).all())
+
+
+def _blocks(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Numbers each face by the object that Join may have brought it with, (p,) int64, not less from face to face.
+
+    Faces and vertices of each object lie behind those of the ones before; so may those of loose pieces of one object.
+    """
+    vertex, face = mesh_arrays.face_corners(mesh)
+    first = np.searchsorted(face, arange(len(mesh.polygons)))
+    highest, lowest = np.maximum.accumulate(vertex), np.minimum.accumulate(vertex[::-1])[::-1]
+    begins = np.zeros(len(first), bool)
+    begins[1:] = highest[first[1:] - 1] < lowest[first[1:]]
+    return np.cumsum(begins, dtype=np.int64)
 
 
 def _groups(obj: bpy.types.Object, numbers: np.ndarray) -> list[str]:
     """Vertex groups that hold the vertices of a part, each wholly and no others. numbers : (p,) int32.
 
     Those with the own names of parts; others, which have the names that the user gave, only where all parts have
-    groups, and no other one holds the same vertices.
+    groups, and no other one holds the same vertices. Where several objects with parts were joined, a group of a name
+    that they share holds a part of each.
     """
+    weights = _weights(obj)
+    named, complete = _groups_of(obj, weights, numbers, np.zeros(len(numbers), np.int64))
+    if not complete:
+        named += _groups_of(obj, weights, numbers, _blocks(obj.data))[0]
+    return list(dict.fromkeys(named))
+
+
+def _groups_of(obj: bpy.types.Object, weights: dict[int, dict[int, float]], numbers: np.ndarray,
+               block: np.ndarray) -> tuple[list[str], bool]:
+    """What ``_groups`` tells of parts that are each in one block of faces, (p,) int64, and whether all have groups."""
     vertex, face = mesh_arrays.face_corners(obj.data)
-    of_parts = {frozenset(vertex[numbers[face] == number].tolist()) for number in np.unique(numbers[numbers > 0])}
-    region = frozenset().union(*of_parts)
+    vertex_block = np.zeros(len(obj.data.vertices), np.int64)
+    vertex_block[vertex] = block[face]
+    parts = _vertices_of_parts(vertex, numbers[face], block[face])
+    region = frozenset().union(*parts)
     found: dict[frozenset[int], list[str]] = {}
+    held: dict[str, list[frozenset[int]]] = {}
     there = set()  # a group of one name that both meshes had holds vertices of both
-    for index, weights in _weights(obj).items():
-        inside = frozenset(weights) & region
-        if inside in of_parts and all(weights[item] == 1.0 for item in inside):
-            there.add(inside)
-            if len(inside) == len(weights):
-                found.setdefault(inside, []).append(obj.vertex_groups[index].name)
-    named = [name for names in found.values() for name in names if _OWN_NAME.fullmatch(name)]
-    if there == of_parts:
-        named += [names[0] for names in found.values() if len(names) == 1 and not _OWN_NAME.fullmatch(names[0])]
-    return named
+    for index, of_group in weights.items():
+        inside = _by_block(frozenset(of_group) & region, vertex_block)
+        if parts.issuperset(inside) and all(of_group[item] == 1.0 for items in inside for item in items):
+            there.update(inside)
+            if inside and sum(map(len, inside)) == len(of_group):
+                name = obj.vertex_groups[index].name
+                held[name] = inside
+                for items in inside:
+                    found.setdefault(items, []).append(name)
+    named = [name for name in held if _OWN_NAME.fullmatch(name)]
+    if there == parts:
+        named += [name for name in held if name not in named and all(found[items] == [name] for items in held[name])]
+    return named, there == parts
+
+
+def _vertices_of_parts(vertex: np.ndarray, number: np.ndarray, block: np.ndarray) -> set[frozenset[int]]:
+    """The vertices of each part in each block. All (corners,) int; a number of 0 or less is no part."""
+    known = number > 0
+    order = np.lexsort((number[known], block[known]))
+    vertex, number, block = (values[known][order] for values in (vertex, number, block))
+    ends = np.flatnonzero((np.diff(number) != 0) | (np.diff(block) != 0)) + 1
+    return {frozenset(some.tolist()) for some in np.split(vertex, ends) if len(some)}
+
+
+def _by_block(vertices: frozenset[int], vertex_block: np.ndarray) -> list[frozenset[int]]:
+    """Some vertices, those of each block by themselves. vertex_block : (n,) int64."""
+    found: dict[int, set[int]] = {}
+    for item in vertices:
+        found.setdefault(int(vertex_block[item]), set()).add(item)
+    return [frozenset(some) for some in found.values()]
 
 
 def _weights(obj: bpy.types.Object) -> dict[int, dict[int, float]]:

@@ -76,6 +76,29 @@ def test_what_came_into_a_decomposed_object_is_ours(make, after, named):
     assert into.vertex_groups.keys() == ["Part 99"]
 
 
+@pytest.mark.parametrize("decomposed", [False, True])
+@pytest.mark.parametrize("named", ["", "AB"], ids=len)
+def test_what_came_along_with_several_joined_objects_is_ours(make, decomposed, named):
+    """Where parts of one number had two colors or names, the groups of all of them stayed for ever."""
+    into, *others = (make(shape, "M") for shape in (shapes.dumbbell(24, 10), shapes.tube_tree(), shapes.tube_tree()))
+    for place, obj in enumerate(others):
+        obj.data.transform(Matrix.Translation((20 * place + 20, 0, 0)))
+        obj.vertex_groups.new(name="Part 99").add([0, 1], 1.0, "REPLACE")
+        activate(obj)
+        bpy.ops.reeb_parts.decompose(graph=False, materials=True)
+        obj.data.reeb_parts.parts[place].name = named[place:place + 1] or "Part 01"
+        obj.data.reeb_parts.parts[0].color = (0.1, 0.2 * place + 0.3, 0.5)
+    activate(into)
+    if decomposed:
+        bpy.ops.reeb_parts.decompose(graph=False)
+    for obj in others:
+        obj.select_set(True)
+    bpy.ops.object.join()
+    bpy.ops.reeb_parts.clear()
+    assert into.vertex_groups.keys() == ["Part 99"]
+    assert not {"reeb_part", "Reeb Parts", ".reeb_former_material"} & set(into.data.attributes.keys())
+
+
 @pytest.mark.parametrize("with_parts", [False, True])
 @pytest.mark.parametrize("after", ["clear", "decompose", "decompose with the same outputs"])
 def test_what_is_joined_into_a_model_with_outputs_keeps_materials_seams_and_face_sets(make, with_parts, after):
