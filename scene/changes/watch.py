@@ -185,7 +185,7 @@ def _hide_graphs_soon(*_: object) -> None:
 @persistent
 def _undone(*_: object) -> None:
     graph_visibility.forget()
-    graph_finding.know_all()
+    graph_finding.know_more()
     # The step was undone in which they got their modifiers: made again, nothing before could be undone.
     _undriven.clear()
     _undriven.update(obj.session_uid for obj in bpy.data.objects if explode.waits(obj))

@@ -17,7 +17,7 @@ SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 ROLES = NODE, ARCS = "node", "arcs"  # of the empties, and of the curve
 _TYPES = {NODE: "EMPTY", ARCS: "CURVE"}
-_known: dict[int, tuple[int, float]] = {}  # by session_uid of objects: mesh of the graph, and how long its run took
+_known: dict[int, tuple[int, float]] = {}  # by _uid of graphs: session_uid of the mesh, and how long its run took
 _ON_NODE = {"node": int, "part": int, "kind": str}  # custom properties, which the user may have deleted or changed
 
 
@@ -39,33 +39,39 @@ def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
 
 def left_behind() -> Iterator[bpy.types.Object]:
     """Objects that have a graph and are in no scene any more, or got another mesh, without parts or with other ones."""
-    return (source for source in _sources()
-            if source is not None and not (source.users_scene and _is_of_mesh(source)))
+    return (source for source, uid in _sources() if not (source.users_scene and _is_of_mesh(source, uid)))
 
 
 def of_other_meshes() -> Iterator[bpy.types.Object]:
     """Objects that have a graph and got another mesh, without parts or with other ones, as by Link Object Data."""
-    return (source for source in _sources() if source is not None and not _is_of_mesh(source))
+    return (source for source, uid in _sources() if not _is_of_mesh(source, uid))
 
 
 def know(obj: bpy.types.Object) -> None:
     """The graph of an object that has parts is that of the mesh that it has now."""
-    _known[obj.session_uid] = obj.data.session_uid, obj.data.reeb_parts.seconds
+    for source, uid in _sources():
+        if source == obj:
+            _known[uid] = obj.data.session_uid, obj.data.reeb_parts.seconds
 
 
 def know_all() -> None:
-    """So are all graphs, after a file was opened or a step undone."""
+    """So are all graphs, after a file was opened."""
     _known.clear()
-    for source in _sources():
-        if source is not None and store.has_parts(source):
-            know(source)
+    know_more()
 
 
-def _is_of_mesh(source: bpy.types.Object) -> bool:
-    """Whether an object has the parts that its graph is of; a copy of the mesh has them, too."""
+def know_more() -> None:
+    """So are those graphs, after a step was undone, of which nothing is known: others may be of a former mesh again."""
+    for source, uid in _sources():
+        if store.has_parts(source) and (uid not in _known or uid == source.session_uid):
+            _known[uid] = source.data.session_uid, source.data.reeb_parts.seconds
+
+
+def _is_of_mesh(source: bpy.types.Object, uid: int) -> bool:
+    """Whether an object has the parts that its graph, by _uid, is of; a copy of the mesh has them, too."""
     if not store.has_parts(source):
         return False
-    mesh, seconds = _known.get(source.session_uid, (source.data.session_uid, 0.0))
+    mesh, seconds = _known.get(uid, (source.data.session_uid, 0.0))
     return mesh == source.data.session_uid or seconds == source.data.reeb_parts.seconds
 
 
@@ -75,9 +81,18 @@ def of_removed() -> Iterator[bpy.types.Collection]:
             if collection.library is None and collection.get(SOURCE, collection) is None)
 
 
-def _sources() -> Iterator[bpy.types.Object | None]:
-    """The objects that graphs are of, and None for other collections."""
-    return (source_of(collection) for collection in bpy.data.collections if collection.library is None)
+def _sources() -> Iterator[tuple[bpy.types.Object, int]]:
+    """The objects that graphs are of, and the _uid of each graph."""
+    for collection in bpy.data.collections:
+        source = source_of(collection) if collection.library is None else None
+        if source is not None:
+            yield source, _uid(collection, source)
+
+
+def _uid(collection: bpy.types.Collection, source: bpy.types.Object) -> int:
+    """A number that tells a graph from those before it: of its curve, which is new with each, and stays in undo."""
+    curve = next((item for item in collection.objects if item.get(ROLE) == ARCS), source)
+    return curve.session_uid
 
 
 def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:

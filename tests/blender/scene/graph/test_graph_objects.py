@@ -288,6 +288,8 @@ def test_a_graph_goes_where_another_mesh_has_other_parts(package, make, obj, set
     obj.data = obj.data.copy() if same else other.data  # as Make Single User does
     bpy.context.view_layer.update()
     assert watch._is_untidy() == (not same)
+    watch._undone()  # as after undo and redo, which bring the former graph back
+    assert watch._is_untidy() == (not same)
     watch._tidy()  # as a timer does
     assert ("Reeb Graph Tree" in bpy.data.collections) == bool(obj.children) == same
     activate(obj)
