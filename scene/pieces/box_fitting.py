@@ -149,17 +149,24 @@ def _slices(mesh: bpy.types.Mesh, normal: np.ndarray,
 def _imprint_all(others: Iterable[bpy.types.Mesh], mesh: bpy.types.Mesh,
                  planes: list[tuple[np.ndarray, float]]) -> None:
     """Divide the caps that others have in common with a mesh that is cut in planes."""
-    shared = _cap_tree(mesh)
-    if shared is not None:
-        for other in others:
+    triangles, _ = _cap_triangles(mesh)
+    if not len(triangles):
+        return
+    points = mesh_arrays.basis_points(mesh)
+    shared = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
+    corners = points[triangles].reshape(-1, 3)
+    for other in others:
+        if _meets(other, corners.min(axis=0), corners.max(axis=0)):
             _imprint(other, shared, planes)
 
 
-def _cap_tree(mesh: bpy.types.Mesh) -> BVHTree | None:
-    """The surface of the caps of a mesh, which other pieces share; None if it has none."""
-    triangles, _ = _cap_triangles(mesh)
-    points = mesh_arrays.basis_points(mesh).tolist()
-    return BVHTree.FromPolygons(points, triangles.tolist(), all_triangles=True) if len(triangles) else None
+def _meets(mesh: bpy.types.Mesh, low: np.ndarray, high: np.ndarray) -> bool:
+    """Whether a mesh comes near to a box, as it must where they share caps; of many pieces, most do not."""
+    points = mesh_arrays.basis_points(mesh)
+    if not len(points):
+        return False
+    margin = 1e-5 * box_diagonal(points)  # twice as far as caps that lie on each other
+    return bool((points.min(axis=0) <= high + margin).all() and (points.max(axis=0) >= low - margin).all())
 
 
 def _cap_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
