@@ -63,10 +63,20 @@ def unread(header: dict[str, Any]) -> str:
         for kind in ("sparse", "normalized"):
             if places.get(kind):
                 return f"{kind} positions"
-        packed = _DRACO in primitive.get("extensions", {})
-        if packed and "bufferView" not in places and importlib.util.find_spec("DracoPy") is None:
+        if _is_packed(primitive, header) and importlib.util.find_spec("DracoPy") is None:
             return f"{_DRACO} without the package DracoPy"
     return ""
+
+
+def is_packed(header: dict[str, Any]) -> bool:
+    """Whether positions of a file are there compressed by Draco only. header : dict, as for ``unread``."""
+    return any(_is_packed(primitive, header) for primitive in _primitives(header))
+
+
+def _is_packed(primitive: dict[str, Any], header: dict[str, Any]) -> bool:
+    """Whether positions of a primitive are."""
+    places = header["accessors"][primitive["attributes"]["POSITION"]]
+    return _DRACO in primitive.get("extensions", {}) and "bufferView" not in places
 
 
 def _primitives(header: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -30,7 +30,7 @@ from .core.mesh.ears import fans, without_folds
 from .core.mesh.triangles import check_corners
 from .core.sentence import Sentence
 from .damaged_files import DamagedFileError, read_by
-from .gltf_checks import read_header, unread
+from .gltf_checks import is_packed, read_header, unread
 from .obj_files import parse_obj
 from .off_files import parse_off
 from .ply_files import ASCII, read_ply
@@ -235,7 +235,7 @@ def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if name:
         raise NoReaderError(Sentence("{path} has {name}, which nothing here reads. Save it without, or as a .blend or "
                                      ".fbx, which Blender reads with --blender.", path=path, name=name))
-    return _read_by_trimesh(path)
+    return _read_by_trimesh(path, is_packed(header))
 
 
 def _read_dae(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -291,8 +291,11 @@ def _plain_ply(data: bytes) -> bytes:
     return data
 
 
-def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices and triangles of all meshes of a file, in its order, each a polygon."""
+def _read_by_trimesh(path: Path, packed: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices and triangles of all meshes of a file, in its order, each a polygon.
+
+    packed : whether some are compressed by Draco.
+    """
     import trimesh
 
     class Resolver(trimesh.resolvers.FilePathResolver):
@@ -313,6 +316,10 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
     if any(mesh.vertices.shape[1:] != (3,) for mesh in meshes):
         raise DamagedFileError(NO_PLACES)
+    # What is damaged, and with older versions of trimesh all of it, is zeros: only a warning says so.
+    if packed and any(len(mesh.vertices) and not np.ptp(mesh.vertices, axis=0).any() for mesh in meshes):
+        raise DamagedFileError(Sentence("what Draco has compressed in it cannot be unpacked: it is damaged, or the "
+                                        "package trimesh is too old for it"))
     first = cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     # Some of its versions have none in one dimension.
     faces = [mesh.faces.reshape(-1, 3) + start for mesh, start in zip(meshes, first, strict=False)]

@@ -76,6 +76,20 @@ def test_what_is_not_read_is_named(change, header, tmp_path, monkeypatch):
         reeb_parts.read_model(tmp_path / "model.gltf")
 
 
+def test_what_draco_compressed_is_not_taken_for_zeros_if_it_is_damaged(header, tmp_path, monkeypatch):
+    """Of several meshes the damaged one lay in a point, without a word; one alone was said to have no area."""
+    (tmp_path / "DracoPy.py").write_text("def decode(data):\n    raise ValueError('damaged')\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "DracoPy", raising=False)
+    header["meshes"][0]["primitives"].append(json.loads(json.dumps(primitive(header))))
+    header["accessors"].append(dict(positions(header)))
+    primitive(header)["attributes"]["POSITION"] = len(header["accessors"]) - 1
+    draco(header)
+    (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
+    with pytest.raises(reeb_parts.ModelFileError, match="what Draco has compressed in it cannot be unpacked"):
+        reeb_parts.read_model(tmp_path / "model.gltf")
+
+
 def test_a_byte_order_mark_hides_no_other_file(header, tmp_path):
     """Some editors write it; the digest of such a model did not know its numbers."""
     path = tmp_path / "model.gltf"
