@@ -139,30 +139,17 @@ def _one_color_each(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
     numbers : (p,) int32.
     """
     known = (numbers > 0) & (numbers <= part_names.MAX_NUMBER)
-    return bool(known.any()) and _same_colors(mesh, np.where(known, numbers, 0), _blocks(mesh))
+    return bool(known.any()) and _same_colors(mesh, np.where(known, numbers, 0), mesh_arrays.blocks(mesh))
 
 
 def _same_colors(mesh: bpy.types.Mesh, numbers: np.ndarray, block: np.ndarray) -> bool:
     """Whether all corners of faces of one number and block have one color. Both (p,) int; number 0 is no part."""
     _, face = mesh_arrays.face_corners(mesh)
     corner = numbers[face] > 0
-    cell = (block.astype(np.int64) * (part_names.MAX_NUMBER + 1) + numbers)[face][corner]
+    cell = (block * (part_names.MAX_NUMBER + 1) + numbers)[face][corner]
     shade = mesh_arrays.read(mesh.attributes[colors.NAME].data, "color_srgb", np.float32, 4)[corner]
     _, first, place = np.unique(cell, return_index=True, return_inverse=True)
     return bool((shade == shade[first][place]).all())
-
-
-def _blocks(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Numbers each face by the object that Join may have brought it with, (p,) int64, not less from face to face.
-
-    Faces and vertices of each object lie behind those of the ones before; so may those of loose pieces of one object.
-    """
-    vertex, face = mesh_arrays.face_corners(mesh)
-    first = np.searchsorted(face, arange(len(mesh.polygons)))
-    highest, lowest = np.maximum.accumulate(vertex), np.minimum.accumulate(vertex[::-1])[::-1]
-    begins = np.zeros(len(first), bool)
-    begins[1:] = highest[first[1:] - 1] < lowest[first[1:]]
-    return np.cumsum(begins, dtype=np.int64)
 
 
 def _groups(obj: bpy.types.Object, numbers: np.ndarray) -> list[str]:
@@ -175,7 +162,7 @@ def _groups(obj: bpy.types.Object, numbers: np.ndarray) -> list[str]:
     weights = _weights(obj)
     named, complete = _groups_of(obj, weights, numbers, np.zeros(len(numbers), np.int64))
     if not complete:
-        named += _groups_of(obj, weights, numbers, _blocks(obj.data))[0]
+        named += _groups_of(obj, weights, numbers, mesh_arrays.blocks(obj.data))[0]
     return list(dict.fromkeys(named))
 
 

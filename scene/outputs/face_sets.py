@@ -134,19 +134,9 @@ def _are_of_parts(mesh: bpy.types.Mesh, sets: np.ndarray, numbers: np.ndarray) -
     known = np.flatnonzero(numbers > 0)
     added = np.diff((sets - numbers)[known])
     first = known[1:][added > 0]
-    return bool((added >= 0).all()) and _begin_apart(mesh, first)
-
-
-def _begin_apart(mesh: bpy.types.Mesh, first: np.ndarray) -> bool:
-    """Whether no face before some faces, (k,) int64, has a vertex as high as those of the faces from there on.
-
-    So it is with what Blender's Join puts together: faces and vertices of each object lie behind those before.
-    """
-    if not len(first):
-        return True
-    vertex, face = mesh_arrays.face_corners(mesh)
-    begin = np.searchsorted(face, first)
-    return bool((np.maximum.accumulate(vertex)[begin - 1] < np.minimum.accumulate(vertex[::-1])[::-1][begin]).all())
+    if (added < 0).any():
+        return False
+    return not len(first) or bool(np.diff(mesh_arrays.blocks(mesh))[first - 1].all())
 
 
 def _keep_aside(mesh: bpy.types.Mesh, now: np.ndarray, some: np.ndarray) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from ...core.arrays.indexing import renumbered, run_starts
-from ...core.arrays.int64 import arange
+from ...core.arrays.int64 import arange, cumsum
 from ...core.arrays.vectors import cross, lengths, row_products
 from ...core.mesh.corners import CornerTable
 
@@ -170,6 +170,22 @@ def corner_edges(mesh: bpy.types.Mesh) -> np.ndarray:
 def _corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     """The vertex or the edge of each corner."""
     return read(mesh.attributes[name].data if len(mesh.loops) else (), "value", np.int32)
+
+
+def blocks(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Which faces may have come to a mesh as one object, and others before or after them as others, (p,) int64 from 0.
+
+    Blender's Join puts the faces and the vertices of each object behind those before. A block begins wherever no face
+    before has a vertex as high as those of the faces from there on: an object is one block, or several if loose pieces
+    of it lie behind each other.
+    """
+    vertex, face = face_corners(mesh)
+    starts = np.flatnonzero(np.diff(face)) + 1
+    highest = np.maximum.accumulate(vertex)[starts - 1]
+    lowest = np.minimum.accumulate(vertex[::-1])[::-1][starts]
+    begins = np.zeros(len(mesh.polygons), bool)
+    begins[face[starts]] = highest < lowest
+    return cumsum(begins)
 
 
 def edges_of(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
