@@ -113,7 +113,7 @@ def measured_polygons(given: PolygonMesh) -> tuple[np.ndarray, np.ndarray, np.nd
 def solid_polygons(given: PolygonMesh) -> np.ndarray:
     """Which polygons have an area, but for rounding, (p,) bool: the others have the part of a neighbor."""
     is_solid = np.zeros(given.n_polygons, bool)
-    is_solid[given.polygon[given.triangles.face_normals.any(axis=1)]] = True
+    is_solid[given.polygon[given.triangles.has_area]] = True
     return is_solid
 
 

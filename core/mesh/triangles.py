@@ -233,6 +233,11 @@ class TriMesh:
         return np.divide(self.area_normals, area[:, None], out=np.zeros((self.n_faces, 3)), where=some[:, None])
 
     @property
+    def has_area(self) -> np.ndarray:
+        """(m,) bool, whether each face has an area, but for rounding."""
+        return lengths(self.face_normals) > 0
+
+    @property
     def vertex_area_normals(self) -> np.ndarray:
         """(n, 3) float64, sum of the ``area_normals`` of the faces at each vertex."""
         return sums_by(self.faces.ravel(), np.repeat(self.area_normals, 3, axis=0), self.n_vertices)

@@ -134,7 +134,7 @@ def _along(mesh: TriMesh, whole: float, diameter: float) -> np.ndarray | None:
     graph = FaceGraph.of(mesh)
     is_outer = connect(graph, _filled(side, graph.pairs)) == 0
     along = np.where(is_outer, arange(mesh.n_faces), behind)
-    outer = np.flatnonzero(is_outer & mesh.face_normals.any(axis=1))  # one without area has a neighbor's part
+    outer = np.flatnonzero(is_outer & mesh.has_area)  # one without area has a neighbor's part
     unknown = np.flatnonzero((along < 0) | ~is_outer[along])
     along[unknown] = outer[nearest(search_tree(mesh.face_centroids[outer]), mesh.face_centroids[unknown])[1]]
     return along

@@ -49,9 +49,9 @@ def of_other_meshes() -> Iterator[bpy.types.Object]:
 
 def know(obj: bpy.types.Object) -> None:
     """The graph of an object that has parts is that of the mesh that it has now."""
-    for source, uid in _sources():
-        if source == obj:
-            _known[uid] = obj.data.session_uid, obj.data.reeb_parts.seconds
+    collection = find(obj)
+    if collection is not None:
+        _known[_uid(collection, obj)] = obj.data.session_uid, obj.data.reeb_parts.seconds
 
 
 def know_all() -> None:
